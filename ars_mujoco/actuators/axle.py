@@ -1,0 +1,139 @@
+"""One axle's stabilizer: what stands between the two arms, from no bar at all to the pump-controlled motor.
+
+Signs: twist = left arm's angle less the right's (each positive in jounce); positive bar angle and torque push the body
+to negative roll, so the torque acts +M on the left half and -M on the right half.
+
+The circuit is integrated over the coming step with the twist held, and its mean bar torque acts on the car over that
+same step. The work of a step on the car is torque times the mean of the twist rates at its two ends, so it is known
+only at the next call.
+"""
+
+from ars_mujoco.channels import Signal
+from ars_mujoco.hydraulics.reduced_circuit import (
+    CircuitEnergy,
+    CircuitState,
+    ReducedCircuit,
+    advance,
+    rates,
+    stored_energy,
+)
+from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import Number, Parameters, Quantity
+
+NO_BAR, TORSION_BAR, PUMP_CONTROLLED = 0.0, 1.0, 2.0
+
+
+class Axle(Parameters):
+    """Parameters of one axle's stabilizer."""
+
+    kind: Number()  # NO_BAR, TORSION_BAR (passive, or the active bar locked) or PUMP_CONTROLLED
+    stiffness: Quantity("N*m/rad", ge=0)  # torsion of the bar, both halves in series
+    substeps: Number(ge=0)  # of the circuit in a physics step
+    circuit: ReducedCircuit
+
+
+class AxleState(Parameters):
+    """State of one axle's stabilizer."""
+
+    circuit: CircuitState
+    energy: CircuitEnergy
+    torque: Signal("N*m", "mean bar torque over the last step")
+    twist_rate: Signal("rad/s", "rate of the twist at the start of the last step")
+    work: Signal("J", "work of the bar on the car up to the start of the last step")
+
+
+class BarOutput(Parameters):
+    angle: Signal("rad", "angle of the motor between the bar's halves")
+    command: Signal("rad", "commanded angle")
+    twist: Signal("rad", "angle of the left arm less that of the right, positive with the left wheel in jounce")
+    torque: Signal("N*m", "torque of the bar, positive pushes the body to negative roll; mean over the coming step")
+
+
+class MotorOutput(Parameters):
+    pressure: Signal("Pa", "pressure difference across the motor")
+    rate: Signal("rad/s", "rate of the motor angle")
+    output_power: Signal("W", "power of the motor on the bar")
+    leakage_power: Signal("W", "lost to leakage in the motor")
+    friction_power: Signal("W", "lost to friction in the motor")
+
+
+class PumpOutput(Parameters):
+    stroke: Signal("1", "stroke of the swash plate, fraction of full")
+    flow: Signal("m^3/s", "flow of the pump without its leakage")
+    shaft_power: Signal("W", "power taken from the shaft, negative where it is given back")
+    loss_power: Signal("W", "lost to the pump's torque loss")
+    leakage_power: Signal("W", "lost to leakage in the pump")
+
+
+class ReliefOutput(Parameters):
+    power: Signal("W", "lost over the relief valve")
+
+
+class EnergyOutput(CircuitEnergy):
+    work: Signal("J", "work of the bar on the car")
+    oil: Signal("J", "stored in the oil's compression")
+    bar: Signal("J", "stored in the bar's torsion and the motor's mechanical stop")
+    inertia: Signal("J", "stored in the motor's inertia")
+
+
+class AxleOutput(Parameters):
+    """What one axle's stabilizer records."""
+
+    bar: BarOutput
+    motor: MotorOutput
+    pump: PumpOutput
+    relief: ReliefOutput
+    energy: EnergyOutput
+
+
+@kernel
+def stabilize(axle, now, later, out, twisted, command, gain, stroke_bias, step) -> float:
+    """Advance one axle by `step` s and return its bar torque (Nm) over that step.
+
+    `command`, `gain` and `stroke_bias` as in `reduced_circuit.advance`; `twisted` is the twist now, (rad, rad/s).
+    """
+    twist, twist_rate = twisted
+    work = now.work + now.torque * step * 0.5 * (now.twist_rate + twist_rate)
+    out.energy.work = work
+    out.bar.twist = twist
+    if axle.kind == PUMP_CONTROLLED:
+        _report(axle, now, out, twist)
+        torque = advance(
+            axle.circuit, axle.stiffness, now.circuit, later.circuit, now.energy, later.energy,
+            command, gain, stroke_bias, twist, step, int(axle.substeps),
+        )  # fmt: skip
+        out.bar.command = command[0]
+    else:
+        torque = -axle.stiffness * twist
+        out.energy.bar = 0.5 * axle.stiffness * twist * twist
+    out.bar.torque = torque
+    later.work, later.torque, later.twist_rate = work, torque, twist_rate
+    return torque
+
+
+@kernel
+def _report(axle, now, out, twist):
+    circuit = axle.circuit
+    state = now.circuit
+    derivatives, powers = rates(
+        circuit, axle.stiffness,
+        (state.spool, state.spool_rate, state.stroke, state.pressure, state.angle, state.rate), 0.0, twist,
+    )  # fmt: skip
+    shaft, loss, squared_pressure, relief, friction, _, motor, _ = powers
+    out.bar.angle = state.angle
+    out.motor.pressure, out.motor.rate = state.pressure, state.rate
+    out.motor.output_power, out.motor.friction_power = motor, friction
+    out.motor.leakage_power = circuit.motor.leakage * squared_pressure
+    out.pump.stroke = state.stroke
+    out.pump.flow = circuit.pump.displacement * circuit.pump.speed * min(max(state.stroke, -1.0), 1.0)
+    out.pump.shaft_power, out.pump.loss_power = shaft, loss
+    out.pump.leakage_power = circuit.pump.leakage * squared_pressure
+    out.relief.power = relief
+    energy = now.energy
+    out.energy.shaft, out.energy.recovered = energy.shaft, energy.recovered
+    out.energy.pump_torque_loss, out.energy.pump_leakage = energy.pump_torque_loss, energy.pump_leakage
+    out.energy.motor_leakage, out.energy.relief = energy.motor_leakage, energy.relief
+    out.energy.friction, out.energy.capacitance = energy.friction, energy.capacitance
+    out.energy.charge, out.energy.motor, out.energy.throughput = energy.charge, energy.motor, energy.throughput
+    oil, torsion, inertia, stop = stored_energy(circuit, axle.stiffness, state, twist)
+    out.energy.oil, out.energy.bar, out.energy.inertia = oil, torsion + stop, inertia

@@ -1,0 +1,153 @@
+"""The bridge to MuJoCo: a rig's step, compiled to a C function and installed as `mjcb_control`.
+
+    mj_step ─> mjcb_control(m, d) ─> Fields of mjData + the world in userdata ─> rig.step ─> forces back into mjData
+
+The native callback takes no interpreter lock, so it also runs under `mujoco.batch.Batch` and in the viewer. The twin for
+debugging (NUMBA_DISABLE_JIT=1) runs the same `rig.step` from Python.
+"""
+
+import contextlib
+import ctypes
+from collections import namedtuple
+
+import mujoco
+import numpy as np
+from llvmlite import ir
+from numba import carray, from_dtype, types
+from numba.extending import intrinsic
+
+from ars_mujoco import mujoco_layout
+from ars_mujoco.errors import ArsError
+from ars_mujoco.kernel import interpreted, kernel
+from ars_mujoco.world import MAGIC
+
+# the fields of mjData a rig reads and writes, flat float64 arrays
+Fields = namedtuple("Fields", "time qpos qvel ctrl qfrc_applied xfrc_applied mocap_pos xpos xmat site_xpos")
+
+SIGNATURE = types.void(types.intp, types.intp)  # mjModel*, mjData*
+
+_DATA = mujoco_layout.offsets("mjData")
+_MODEL = mujoco_layout.offsets("mjModel")
+_TIME, _USERDATA = _DATA["time"], _DATA["userdata"]
+_QPOS, _QVEL, _CTRL = _DATA["qpos"], _DATA["qvel"], _DATA["ctrl"]
+_QFRC, _XFRC, _MOCAP = _DATA["qfrc_applied"], _DATA["xfrc_applied"], _DATA["mocap_pos"]
+_XPOS, _XMAT, _SITE = _DATA["xpos"], _DATA["xmat"], _DATA["site_xpos"]
+_NUSERDATA, _NNUMERICDATA, _NUMERIC = _MODEL["nuserdata"], _MODEL["nnumericdata"], _MODEL["numeric_data"]
+_NO_BOUND = 1 << 30  # the arrays below are not bounds-checked; their true lengths are the model's
+
+
+@contextlib.contextmanager
+def installed(rig, model: mujoco.MjModel, data: mujoco.MjData):
+    """Install `rig`'s callback for the length of a `with` block, and restore what was there.
+
+    `data` is used to hold the struct offsets against. Raises ArsError for an integrator that calls more than once a
+    step, and for a model that was not built for this rig.
+    """
+    if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
+        raise ArsError("integrator RK4 is refused: it evaluates forces four times a step, and the hydraulics advance once")
+    if model.nuserdata * 8 != rig.WORLD.itemsize:
+        raise ArsError(f"this model was not built for the rig '{rig.NAME}': its userdata has {model.nuserdata} numbers")
+    mujoco_layout.validate(model, data)
+    before = mujoco.get_mjcb_control()
+    mujoco.set_mjcb_control(python_callback(rig) if interpreted else c_function(rig.CALLBACK))
+    try:
+        yield
+    finally:
+        mujoco.set_mjcb_control(before)
+
+
+def c_function(compiled):
+    """The ctypes function of a compiled callback."""
+    return ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(compiled.address)
+
+
+def python_callback(rig, step=None):
+    """The same callback from Python: for debugging, and for a controller that does not compile."""
+    step = step or rig.step
+
+    def control(model, data):
+        world = np.asarray(data.userdata).view(rig.WORLD).view(np.recarray)
+        if world[0].header.magic != MAGIC:
+            data.userdata[:] = model.numeric_data[-model.nuserdata :]
+        flat = (np.asarray(getattr(data, name)).reshape(-1) for name in Fields._fields[1:])
+        step(world[0], Fields(data.time, *flat))
+
+    return control
+
+
+@intrinsic
+def word(_, address):
+    """The 8-byte integer at an address."""
+
+    def codegen(context, builder, signature, args):
+        return builder.load(builder.inttoptr(args[0], ir.IntType(64).as_pointer()))
+
+    return types.int64(types.intp), codegen
+
+
+@intrinsic
+def doubles(_, address):
+    """A pointer to the float64 numbers at an address."""
+
+    def codegen(context, builder, signature, args):
+        return builder.inttoptr(args[0], ir.DoubleType().as_pointer())
+
+    return types.CPointer(types.float64)(types.intp), codegen
+
+
+@intrinsic
+def call(_, function, first, second):
+    """Call the C function void(void*, void*) at an address."""
+
+    def codegen(context, builder, signature, args):
+        integer = ir.IntType(64)
+        function_type = ir.FunctionType(ir.VoidType(), [integer, integer])
+        builder.call(builder.inttoptr(args[0], function_type.as_pointer()), args[1:])
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.intp, types.intp), codegen
+
+
+def record_at(dtype: np.dtype):
+    """An intrinsic that views the memory at an address as a record of `dtype`."""
+    record = from_dtype(dtype)
+
+    @intrinsic
+    def view_record(_, address):
+        def codegen(context, builder, signature, args):
+            return builder.inttoptr(args[0], context.get_value_type(record))
+
+        return record(types.intp), codegen
+
+    return view_record
+
+
+@kernel
+def world_address(model: int, data: int) -> int:
+    """Address of the world in userdata, initialised from the model's last custom numeric where its magic is absent."""
+    address = word(data + _USERDATA)
+    userdata = carray(doubles(address), (_NO_BOUND,))
+    if userdata[0] != MAGIC:
+        count = word(model + _NUSERDATA)
+        first = word(model + _NNUMERICDATA) - count
+        initial = carray(doubles(word(model + _NUMERIC)), (_NO_BOUND,))
+        for i in range(count):
+            userdata[i] = initial[first + i]
+    return address
+
+
+@kernel
+def fields(data: int):
+    """The fields of the mjData at an address."""
+    return Fields(
+        carray(doubles(data + _TIME), (1,))[0],
+        carray(doubles(word(data + _QPOS)), (_NO_BOUND,)),
+        carray(doubles(word(data + _QVEL)), (_NO_BOUND,)),
+        carray(doubles(word(data + _CTRL)), (_NO_BOUND,)),
+        carray(doubles(word(data + _QFRC)), (_NO_BOUND,)),
+        carray(doubles(word(data + _XFRC)), (_NO_BOUND,)),
+        carray(doubles(word(data + _MOCAP)), (_NO_BOUND,)),
+        carray(doubles(word(data + _XPOS)), (_NO_BOUND,)),
+        carray(doubles(word(data + _XMAT)), (_NO_BOUND,)),
+        carray(doubles(word(data + _SITE)), (_NO_BOUND,)),
+    )

@@ -1,0 +1,1 @@
+"""Control of the stabilizer: reference, outer and inner loop, each usable alone; floats in, floats out."""

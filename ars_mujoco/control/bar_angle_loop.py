@@ -1,0 +1,26 @@
+"""Bar-angle loop: the outer loop of the cascade, from the bar's angle to the pump's stroke (paper section 5)."""
+
+from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.saturation import saturate
+
+
+class BarAngleLoop(Parameters):
+    """Proportional controller of the bar angle."""
+
+    gain: Quantity("1/rad", gt=0)  # K_p at the gain's own speed: full stroke over angle error
+    gain_speed: Quantity("rad/s", gt=0)  # the pump speed at which `gain` holds
+    schedule: Number(ge=0, le=1)  # 1: K_p in proportion to 1/n, the loop is the same at every speed; 0: fixed, the paper's
+    max_angle: Quantity("rad", gt=0)  # limit of the command, not the motor's mechanical stop
+
+
+@kernel
+def outer_gain(loop, speed: float) -> float:
+    """K_p (1/rad) at a pump speed (rad/s)."""
+    return loop.gain * (1.0 + loop.schedule * (loop.gain_speed / speed - 1.0))
+
+
+@kernel
+def limited(loop, command: float) -> float:
+    """The command within the range of the bar."""
+    return saturate(command, loop.max_angle)

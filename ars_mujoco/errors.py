@@ -1,0 +1,21 @@
+"""The errors a user can meet, each one line that says where, what and what is allowed."""
+
+
+class ArsError(Exception):
+    """Base of every error this package raises on purpose; the command line prints it without a traceback."""
+
+
+class InputError(ArsError):
+    """A file, a key, a value or an option that cannot be used. `problems` lists every one found."""
+
+    def __init__(self, *problems: str):
+        self.problems = problems
+        super().__init__("\n".join(problems))
+
+
+class SimulationError(ArsError):
+    """A run that cannot go on: `time` (s), `channel` (its name) and `samples` (the last ones, by channel)."""
+
+    def __init__(self, message: str, time: float, channel: str, samples: dict | None = None):
+        self.time, self.channel, self.samples = time, channel, samples or {}
+        super().__init__(message)

@@ -1,0 +1,232 @@
+"""The reduced circuit: pump control, pump, line, relief valve and vane motor as six states (the verification set).
+
+    command ─> outer loop ─> inner loop ─> servo valve ─> swash plate ─> pump ═ line ═ vane motor ─> bar
+                   ^                                        (X)                (dp)      (phi, w)
+                   └────────────────────── phi ─────────────────────────────────────────────┘
+
+Signs: positive stroke X delivers into the side whose pressure difference dp drives the motor to positive phi; positive
+phi twists the bar, and the bar pushes the body to negative roll. Both loops live inside the substeps, because holding
+either over a physics step costs accuracy; a control unit that samples gives its stroke command as `stroke_bias`
+instead and sets `gain` to zero.
+"""
+
+import math
+
+from ars_mujoco.channels import Signal
+from ars_mujoco.control.swash_plate_loop import SwashPlateLoop, valve_command
+from ars_mujoco.hydraulics.line import Line, capacitance, capacitance_slope, middle_volume
+from ars_mujoco.hydraulics.pump import Pump, ideal_flow, torque_loss
+from ars_mujoco.hydraulics.relief_valve import ReliefValve, relief_flow
+from ars_mujoco.hydraulics.servo_valve import ServoValve, spool_acceleration
+from ars_mujoco.hydraulics.swash_plate import SwashPlate, stroke_rate
+from ars_mujoco.hydraulics.vane_motor import VaneMotor, friction_stiffness, friction_torque, stop_torque
+from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.saturation import saturate
+
+RK4_REAL_LIMIT = 2.785  # |lambda h| up to which the classical Runge-Kutta step is stable on the negative real axis
+STIFFNESS_MARGIN = 0.92  # of that limit: the friction's own eigenvalue moves a little as the bar loads the motor
+
+
+class ReducedCircuit(Parameters):
+    """Components of one axle's circuit."""
+
+    servo_valve: ServoValve
+    swash_plate: SwashPlate
+    swash_plate_loop: SwashPlateLoop
+    pump: Pump
+    line: Line
+    relief_valve: ReliefValve
+    motor: VaneMotor
+    charge_power: Quantity("W", ge=0)  # constant drawn by charge and control supply, all of it throttled to heat
+
+
+class CircuitState(Parameters):
+    """State of one axle's circuit."""
+
+    spool: Signal("1", "servo valve stroke, fraction of full")
+    spool_rate: Signal("1/s", "its rate")
+    stroke: Signal("1", "pump stroke, fraction of full")
+    pressure: Signal("Pa", "pressure difference across the motor")
+    angle: Signal("rad", "angle of the motor")
+    rate: Signal("rad/s", "its rate")
+
+
+class CircuitEnergy(Parameters):
+    """Energies of one axle since the start, integrated in the substeps with the weights of the states."""
+
+    shaft: Signal("J", "work of the pump shaft, less what came back")
+    recovered: Signal("J", "work given back to the shaft, as a positive number")
+    pump_torque_loss: Signal("J", "lost to the pump's torque loss")
+    pump_leakage: Signal("J", "lost to leakage in the pump")
+    motor_leakage: Signal("J", "lost to leakage in the motor")
+    relief: Signal("J", "lost over the relief valve")
+    friction: Signal("J", "lost to friction in the motor")
+    capacitance: Signal("J", "taken by the oil's capacitance as it varies with the angle")
+    charge: Signal("J", "drawn by charge and control supply, all of it lost")
+    motor: Signal("J", "work of the motor on the bar")
+    throughput: Signal("J", "integral of |shaft| + |motor| power")
+
+
+@kernel
+def substeps(circuit, bar_stiffness: float, outer_gain: float, step: float) -> int:
+    """Substeps a physics step of `step` s needs, from the circuit's fastest eigenvalues.
+
+    The friction's rounding is the stiff one (real, friction slope over inertia); the hydraulic pair is oscillatory.
+    """
+    inertia = circuit.motor.inertia
+    friction = friction_stiffness(circuit.motor) / inertia
+    oil = circuit.line.capacitance
+    hydraulic = math.sqrt(
+        (circuit.motor.displacement**2 / oil + bar_stiffness + circuit.motor.stop_stiffness) / inertia
+    )
+    leak = (circuit.pump.leakage + circuit.motor.leakage + circuit.relief_valve.conductance) / oil
+    valve = 2.0 * circuit.servo_valve.damping * circuit.servo_valve.frequency
+    fastest = max(friction, 2.0 * hydraulic, leak, valve, outer_gain)
+    return max(4, math.ceil(step * fastest / (RK4_REAL_LIMIT * STIFFNESS_MARGIN)))
+
+
+@kernel
+def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: float):
+    """Derivatives of the six states and the powers behind the energies, as two tuples.
+
+    The states are (spool, spool_rate, stroke, pressure, angle, rate); the equations are those of the verification set
+    (paper eqs. 18 to 20, 24 to 29). The powers are (W) shaft, pump torque loss, squared pressure (Pa^2, for the
+    leakages), relief, friction, capacitance, motor, and the bar torque (Nm).
+    """
+    spool, spool_rate, stroke, pressure, angle, rate = state
+    pump, motor = circuit.pump, circuit.motor
+    command = valve_command(circuit.swash_plate_loop, circuit.swash_plate, stroke_command, stroke)
+    flow = ideal_flow(pump, stroke)
+    relief = relief_flow(circuit.relief_valve, pressure)
+    friction = friction_torque(motor, rate)
+    bar_torque = bar_stiffness * (angle - twist)
+    displaced = motor.displacement * rate
+    derivatives = (
+        spool_rate,
+        spool_acceleration(circuit.servo_valve, spool, spool_rate, command),
+        stroke_rate(circuit.swash_plate, spool),
+        (flow - (pump.leakage + motor.leakage) * pressure - relief - displaced) / capacitance(circuit.line, motor, angle),
+        rate,
+        (motor.displacement * pressure - bar_torque - stop_torque(motor, angle) - friction) / motor.inertia,
+    )
+    loss = torque_loss(pump, stroke, pressure) * pump.speed
+    powers = (
+        flow * pressure + loss,
+        loss,
+        pressure * pressure,
+        relief * pressure,
+        friction * rate,
+        -0.5 * capacitance_slope(circuit.line, motor, angle) * rate * pressure * pressure,
+        bar_torque * rate,
+        bar_torque,
+    )
+    return derivatives, powers
+
+
+@kernel
+def advance(
+    circuit, bar_stiffness, now, later, energy_now, energy_later, command, gain, stroke_bias, twist, step, count
+) -> float:
+    """Advance the circuit by `step` s in `count` classical Runge-Kutta substeps; return the mean bar torque (Nm).
+
+    `now` and `later` are CircuitState records (they may be the same), `energy_*` CircuitEnergy records. The stroke
+    command at a stage is the saturated `stroke_bias + gain (phi_c(t) - phi)`, where `command` = (c0, c1, c2) is the
+    commanded angle c0 + c1 t + c2 t^2 (rad) since the start of the step. `bar_stiffness` is
+    c_stabi (Nm/rad), the torsion of both halves in series; the bar's twist (rad) is held.
+    """
+    state = (now.spool, now.spool_rate, now.stroke, now.pressure, now.angle, now.rate)
+    h = step / count
+    shaft = recovered = loss = squared = relief = friction = compliance = motor = throughput = torque = 0.0
+    for i in range(count):
+        t = i * h
+        k1, p1 = rates(circuit, bar_stiffness, state, _stroke_command(command, gain, stroke_bias, t, state[4]), twist)
+        s2 = _along(state, k1, 0.5 * h)
+        k2, p2 = rates(circuit, bar_stiffness, s2, _stroke_command(command, gain, stroke_bias, t + 0.5 * h, s2[4]), twist)
+        s3 = _along(state, k2, 0.5 * h)
+        k3, p3 = rates(circuit, bar_stiffness, s3, _stroke_command(command, gain, stroke_bias, t + 0.5 * h, s3[4]), twist)
+        s4 = _along(state, k3, h)
+        k4, p4 = rates(circuit, bar_stiffness, s4, _stroke_command(command, gain, stroke_bias, t + h, s4[4]), twist)
+        state = _runge_kutta(state, k1, k2, k3, k4, h)
+        power = _weighted(p1, p2, p3, p4)
+        shaft += power[0]
+        recovered += max(-power[0], 0.0)
+        loss += power[1]
+        squared += power[2]
+        relief += power[3]
+        friction += power[4]
+        compliance += power[5]
+        motor += power[6]
+        throughput += abs(power[0]) + abs(power[6])
+        torque += power[7]
+    later.spool, later.spool_rate, later.stroke, later.pressure, later.angle, later.rate = state
+    energy_later.shaft = energy_now.shaft + h * shaft
+    energy_later.recovered = energy_now.recovered + h * recovered
+    energy_later.pump_torque_loss = energy_now.pump_torque_loss + h * loss
+    energy_later.pump_leakage = energy_now.pump_leakage + h * circuit.pump.leakage * squared
+    energy_later.motor_leakage = energy_now.motor_leakage + h * circuit.motor.leakage * squared
+    energy_later.relief = energy_now.relief + h * relief
+    energy_later.friction = energy_now.friction + h * friction
+    energy_later.capacitance = energy_now.capacitance + h * compliance
+    energy_later.charge = energy_now.charge + step * circuit.charge_power
+    energy_later.motor = energy_now.motor + h * motor
+    energy_later.throughput = energy_now.throughput + h * throughput
+    return torque / count
+
+
+@kernel
+def stored_energy(circuit, bar_stiffness: float, state, twist: float):
+    """Energy (J) now stored in (oil, bar torsion, motor inertia, mechanical stop)."""
+    beyond = max(abs(state.angle) - circuit.motor.stop_angle, 0.0)
+    return (
+        0.5 * capacitance(circuit.line, circuit.motor, state.angle) * state.pressure**2,
+        0.5 * bar_stiffness * (state.angle - twist) ** 2,
+        0.5 * circuit.motor.inertia * state.rate**2,
+        0.5 * circuit.motor.stop_stiffness * beyond**2,
+    )
+
+
+@kernel
+def _stroke_command(command, gain, bias, t, angle):
+    c0, c1, c2 = command
+    return saturate(bias + gain * (c0 + t * (c1 + t * c2) - angle), 1.0)
+
+
+@kernel
+def _along(state, rate, h):
+    return (
+        state[0] + h * rate[0],
+        state[1] + h * rate[1],
+        state[2] + h * rate[2],
+        state[3] + h * rate[3],
+        state[4] + h * rate[4],
+        state[5] + h * rate[5],
+    )
+
+
+@kernel
+def _runge_kutta(state, k1, k2, k3, k4, h):
+    w, d = h / 6.0, 2.0
+    return (
+        state[0] + w * (k1[0] + d * (k2[0] + k3[0]) + k4[0]),
+        state[1] + w * (k1[1] + d * (k2[1] + k3[1]) + k4[1]),
+        state[2] + w * (k1[2] + d * (k2[2] + k3[2]) + k4[2]),
+        state[3] + w * (k1[3] + d * (k2[3] + k3[3]) + k4[3]),
+        state[4] + w * (k1[4] + d * (k2[4] + k3[4]) + k4[4]),
+        state[5] + w * (k1[5] + d * (k2[5] + k3[5]) + k4[5]),
+    )
+
+
+@kernel
+def _weighted(p1, p2, p3, p4):
+    w, d = 1.0 / 6.0, 2.0
+    return (
+        w * (p1[0] + d * (p2[0] + p3[0]) + p4[0]),
+        w * (p1[1] + d * (p2[1] + p3[1]) + p4[1]),
+        w * (p1[2] + d * (p2[2] + p3[2]) + p4[2]),
+        w * (p1[3] + d * (p2[3] + p3[3]) + p4[3]),
+        w * (p1[4] + d * (p2[4] + p3[4]) + p4[4]),
+        w * (p1[5] + d * (p2[5] + p3[5]) + p4[5]),
+        w * (p1[6] + d * (p2[6] + p3[6]) + p4[6]),
+        w * (p1[7] + d * (p2[7] + p3[7]) + p4[7]),
+    )

@@ -1,0 +1,21 @@
+"""Relief valve: limits the pressure difference in both directions."""
+
+from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import Parameters, Quantity
+
+
+class ReliefValve(Parameters):
+    """A pair of relief valves, one a line; both open at the same pressure."""
+
+    pressure: Quantity("Pa", gt=0)  # opening pressure
+    conductance: Quantity("m^3/s/Pa", ge=0)  # flow over excess pressure, once open
+
+
+@kernel
+def relief_flow(valve, pressure: float) -> float:
+    """Flow (m^3/s) from the high to the low side, with the sign of `pressure` (Pa)."""
+    if pressure > valve.pressure:
+        return valve.conductance * (pressure - valve.pressure)
+    if pressure < -valve.pressure:
+        return valve.conductance * (pressure + valve.pressure)
+    return 0.0

@@ -1,0 +1,16 @@
+"""Swash plate: the pump's stroke, integrated from the spool stroke by the control cylinder (paper eq. 20)."""
+
+from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import Parameters, Quantity
+
+
+class SwashPlate(Parameters):
+    """Control cylinder and swash plate, reduced to the integrator that the servo valve dominates."""
+
+    max_rate: Quantity("1/s", gt=0)  # full strokes a second at a fully open valve
+
+
+@kernel
+def stroke_rate(plate, spool: float) -> float:
+    """Rate of the pump stroke (1/s), a fraction of full stroke (eq. 20 without the valve's lag)."""
+    return plate.max_rate * spool

@@ -1,0 +1,56 @@
+"""Vane motor: torque from pressure, Stribeck friction, leakage and its mechanical stop (paper eqs. 25 to 28, 40)."""
+
+import math
+
+from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import Parameters, Quantity
+
+
+class VaneMotor(Parameters):
+    """Rotary vane motor between the two halves of the stabilizer bar."""
+
+    displacement: Quantity("m^3/rad", gt=0)  # D = V_M/2pi
+    inertia: Quantity("kg*m^2", gt=0)  # Theta, the bar's halves included
+    leakage: Quantity("m^3/s/Pa", ge=0)  # the motor's share of k_Li
+    coulomb_friction: Quantity("N*m", ge=0)  # r_C
+    static_friction: Quantity("N*m", ge=0)  # r_H, above r_C at standstill
+    static_decay: Quantity("s/rad", ge=0)  # tau_H
+    viscous_friction: Quantity("N*m*s/rad", ge=0)  # r_v
+    friction_speed: Quantity("rad/s", gt=0)  # w_s, over which the friction's sign is rounded
+    stop_angle: Quantity("rad", gt=0)  # phi_n, the vane's mechanical stop
+    stop_stiffness: Quantity("N*m/rad", ge=0)  # of that stop
+
+
+@kernel
+def friction_torque(motor, rate: float) -> float:
+    """Friction torque (Nm) at `rate` (rad/s): eq. 28 with sign() rounded to tanh() so that standstill is solvable."""
+    dry = motor.coulomb_friction
+    if motor.static_friction > 0.0:
+        dry += motor.static_friction * math.exp(-motor.static_decay * abs(rate))
+    return dry * _rounded_sign(rate / motor.friction_speed) + motor.viscous_friction * rate
+
+
+@kernel
+def friction_stiffness(motor) -> float:
+    """Steepest slope (Nms/rad) of the friction torque over speed, at standstill: what makes the circuit stiff."""
+    return (motor.coulomb_friction + motor.static_friction) / motor.friction_speed + motor.viscous_friction
+
+
+@kernel
+def stop_torque(motor, angle: float) -> float:
+    """Torque (Nm) of the mechanical stop against an angle beyond it; elastic, so it stores and gives back."""
+    if angle > motor.stop_angle:
+        return motor.stop_stiffness * (angle - motor.stop_angle)
+    if angle < -motor.stop_angle:
+        return motor.stop_stiffness * (angle + motor.stop_angle)
+    return 0.0
+
+
+@kernel
+def _rounded_sign(x: float) -> float:
+    # tanh(20) is 1 to the last bit of a double: most of the time the motor moves, and the exponential is spared
+    if x >= 20.0:
+        return 1.0
+    if x <= -20.0:
+        return -1.0
+    return math.tanh(x)

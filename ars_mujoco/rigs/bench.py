@@ -1,0 +1,76 @@
+"""The bench: the bar and its actuator alone, the bar's ends held or moved (the paper's own simulation)."""
+
+import math
+
+import numpy as np
+
+from ars_mujoco.actuators.axle import AxleOutput
+from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
+from ars_mujoco.channels import Signal
+from ars_mujoco.kernel import kernel, native_callback
+from ars_mujoco.parameters import Parameters, record_dtype
+from ars_mujoco.rigs import stabilizers
+from ars_mujoco.rigs.stabilizers import stabilize_both
+from ars_mujoco.signal import SIGNAL, slope, value
+from ars_mujoco.world import begin, check_finite, world_dtype
+
+NAME = "bench"
+
+
+class Ends(Parameters):
+    travel: Signal("m", "travel of the bar's left end less that of its right")
+
+
+class Output(Parameters):
+    """What the bench records; its one axle is called front."""
+
+    ends: Ends
+    front: AxleOutput
+
+
+OUTPUT = Output
+PARAMETERS = np.dtype(
+    [("stabilizers", stabilizers.PARAMETERS), ("command", SIGNAL), ("ends", SIGNAL), ("arm", "f8"), ("height", "f8")]
+)
+WORLD = world_dtype(
+    PARAMETERS,
+    np.dtype([("stabilizers", stabilizers.STATE)]),
+    record_dtype(Output),
+    np.dtype([("rear", record_dtype(AxleOutput))]),
+)
+
+
+@kernel
+def step(world, mj) -> None:
+    """One call of the callback: the ends' twist and the command drive the actuator; mocap bodies show the ends."""
+    begin(world, mj.time)
+    p, h = world.parameters, world.header.step
+    travel = value(p.ends, mj.time)
+    world.out.ends.travel = travel
+    mj.mocap_pos[2], mj.mocap_pos[5] = p.height + 0.5 * travel, p.height - 0.5 * travel
+    share = travel / p.arm  # the paper's one-arm form of the twist (eq. 26)
+    twist = (math.asin(share), slope(p.ends, mj.time) / (p.arm * math.sqrt(1.0 - share * share)))
+    front, _ = stabilize_both(
+        p.stabilizers, world.now.stabilizers, world.later.stabilizers, world.out.front, world.scratch.rear,
+        mj.time, h, parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0),
+    )  # fmt: skip
+    check_finite(world, front, mj.time)
+
+
+@kernel
+def parabola(signal, time: float, step: float):
+    """(c0, c1, c2) of `signal` as c0 + c1 t + c2 t^2 over the step from `time` (s), through three samples.
+
+    The last sample is taken just inside the step, so that a jump at its end belongs to the next.
+    """
+    first, middle = value(signal, time), value(signal, time + 0.5 * step)
+    last = value(signal, time + step * (1.0 - 1e-9))
+    return first, (4.0 * middle - 3.0 * first - last) / step, 2.0 * (first - 2.0 * middle + last) / (step * step)
+
+
+_world = record_at(WORLD)
+
+
+@native_callback(SIGNATURE)
+def CALLBACK(model, data):  # noqa: N802
+    step(_world(world_address(model, data)), fields(data))

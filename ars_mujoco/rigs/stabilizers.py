@@ -1,0 +1,71 @@
+"""Both axles' stabilizers under one control unit: the part that every rig shares."""
+
+import numpy as np
+
+from ars_mujoco.actuators.axle import PUMP_CONTROLLED, Axle, AxleState, stabilize
+from ars_mujoco.control.bar_angle_loop import BarAngleLoop, limited, outer_gain
+from ars_mujoco.control.control_unit import DELAY_LINE, ControlUnit, delayed, samples_now
+from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import record_dtype
+from ars_mujoco.saturation import saturate
+
+PARAMETERS = np.dtype(
+    [
+        ("front", record_dtype(Axle)),
+        ("rear", record_dtype(Axle)),
+        ("loop", record_dtype(BarAngleLoop)),
+        ("unit", record_dtype(ControlUnit)),
+    ]
+)
+STATE = np.dtype(
+    [
+        ("front", record_dtype(AxleState)),
+        ("rear", record_dtype(AxleState)),
+        ("delay", DELAY_LINE),
+        ("front_stroke", "f8"),  # stroke commands that a sampling unit last computed
+        ("rear_stroke", "f8"),
+    ]
+)
+
+
+@kernel
+def stabilize_both(p, now, later, front_out, rear_out, time, step, front_command, rear_command, front_twist, rear_twist):
+    """Advance both axles by `step` s; return their bar torques (front, rear) in Nm.
+
+    Commands are (c0, c1, c2) over the step as in `reduced_circuit.advance`; twists are (angle rad, rate rad/s).
+    A continuous unit delays the commanded angle and leaves the outer loop to the substeps; a sampling unit computes the
+    outer loop itself and delays the stroke.
+    """
+    front_gain, rear_gain = _gain(p.front, p.loop), _gain(p.rear, p.loop)
+    front_command, rear_command = _limited(p.loop, front_command), _limited(p.loop, rear_command)
+    front_bias = rear_bias = 0.0
+    later.delay = now.delay
+    if p.unit.sample_time == 0.0:
+        if p.unit.delay > 0.0:
+            front, rear = delayed(p.unit, later.delay, front_command[0], rear_command[0], step)
+            front_command, rear_command = (front, 0.0, 0.0), (rear, 0.0, 0.0)
+    else:
+        later.front_stroke, later.rear_stroke = now.front_stroke, now.rear_stroke
+        if samples_now(p.unit, time, step):
+            later.front_stroke = saturate(front_gain * (front_command[0] - now.front.circuit.angle), 1.0)
+            later.rear_stroke = saturate(rear_gain * (rear_command[0] - now.rear.circuit.angle), 1.0)
+        front_bias, rear_bias = delayed(p.unit, later.delay, later.front_stroke, later.rear_stroke, step)
+        front_gain = rear_gain = 0.0
+    front_torque = stabilize(
+        p.front, now.front, later.front, front_out, front_twist, front_command, front_gain, front_bias, step
+    )
+    rear_torque = stabilize(p.rear, now.rear, later.rear, rear_out, rear_twist, rear_command, rear_gain, rear_bias, step)
+    return front_torque, rear_torque
+
+
+@kernel
+def _gain(axle, loop):
+    return outer_gain(loop, axle.circuit.pump.speed) if axle.kind == PUMP_CONTROLLED else 0.0
+
+
+@kernel
+def _limited(loop, command):
+    # a command over the limit is held there for the whole step
+    c0, c1, c2 = command
+    first = limited(loop, c0)
+    return (c0, c1, c2) if first == c0 else (first, 0.0, 0.0)
