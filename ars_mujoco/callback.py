@@ -22,7 +22,7 @@ from ars_mujoco.kernel import interpreted, kernel
 from ars_mujoco.world import MAGIC
 
 # the fields of mjData a rig reads and writes, flat float64 arrays
-Fields = namedtuple("Fields", "time qpos qvel ctrl qfrc_applied xfrc_applied mocap_pos xpos xmat site_xpos")
+Fields = namedtuple("Fields", "time qpos qvel ctrl qfrc_applied xfrc_applied mocap_pos xpos xmat site_xpos xanchor xaxis")
 
 SIGNATURE = types.void(types.intp, types.intp)  # mjModel*, mjData*
 
@@ -32,6 +32,7 @@ _TIME, _USERDATA = _DATA["time"], _DATA["userdata"]
 _QPOS, _QVEL, _CTRL = _DATA["qpos"], _DATA["qvel"], _DATA["ctrl"]
 _QFRC, _XFRC, _MOCAP = _DATA["qfrc_applied"], _DATA["xfrc_applied"], _DATA["mocap_pos"]
 _XPOS, _XMAT, _SITE = _DATA["xpos"], _DATA["xmat"], _DATA["site_xpos"]
+_XANCHOR, _XAXIS = _DATA["xanchor"], _DATA["xaxis"]
 _NUSERDATA, _NNUMERICDATA, _NUMERIC = _MODEL["nuserdata"], _MODEL["nnumericdata"], _MODEL["numeric_data"]
 _NO_BOUND = 1 << 30  # the arrays below are not bounds-checked; their true lengths are the model's
 
@@ -150,4 +151,6 @@ def fields(data: int):
         carray(doubles(word(data + _XPOS)), (_NO_BOUND,)),
         carray(doubles(word(data + _XMAT)), (_NO_BOUND,)),
         carray(doubles(word(data + _SITE)), (_NO_BOUND,)),
+        carray(doubles(word(data + _XANCHOR)), (_NO_BOUND,)),
+        carray(doubles(word(data + _XAXIS)), (_NO_BOUND,)),
     )

@@ -14,7 +14,10 @@ from mujoco.introspect import ast_nodes, enums, structs
 from ars_mujoco.errors import ArsError
 
 # the fields that the callback reads or writes
-DATA_FIELDS = ("qpos", "qvel", "ctrl", "qfrc_applied", "xfrc_applied", "mocap_pos", "userdata", "xpos", "xmat", "site_xpos")
+DATA_FIELDS = (
+    "qpos", "qvel", "ctrl", "qfrc_applied", "xfrc_applied", "mocap_pos", "userdata", "xpos", "xquat", "xmat", "site_xpos",
+    "xanchor", "xaxis",
+)  # fmt: skip
 MODEL_FIELDS = ("numeric_data",)
 
 _SIZES = {"char": 1, "mjtByte": 1, "mjtBool": 1, "int": 4, "float": 4, "unsigned int": 4}  # all others: 8 bytes

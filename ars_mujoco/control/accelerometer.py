@@ -44,7 +44,6 @@ def specific_force(now, later, velocity, axis, gravity: float, step: float) -> f
 
 
 @kernel
-def low_pass(sensor, now, later, reading: float, step: float) -> float:
-    """First-order filter of `reading`, exact for an input held over the step; returns the output before the step."""
+def low_pass(sensor, now, later, reading: float, step: float) -> None:
+    """First-order filter of `reading`, exact for an input held over the step (s)."""
     later.filtered = reading + (now.filtered - reading) * math.exp(-2.0 * math.pi * sensor.cutoff * step)
-    return now.filtered

@@ -1,5 +1,6 @@
 """Both axles' stabilizers under one control unit: the part that every rig shares."""
 
+import mujoco
 import numpy as np
 
 from ars_mujoco.actuators.axle import PUMP_CONTROLLED, Axle, AxleState, stabilize
@@ -69,3 +70,29 @@ def _limited(loop, command):
     c0, c1, c2 = command
     first = limited(loop, c0)
     return (c0, c1, c2) if first == c0 else (first, 0.0, 0.0)
+
+
+BARS = ("front_bar_left", "front_bar_right", "rear_bar_left", "rear_bar_right")
+BAR_ADDRESSES = np.dtype([("position", "f8", 4), ("velocity", "f8", 4)])
+
+
+def bar_addresses(model: mujoco.MjModel) -> dict:
+    """The numbers of BAR_ADDRESSES, by the model's names."""
+    joints = [model.joint(name) for name in BARS]
+    return {"position": [j.qposadr[0] for j in joints], "velocity": [j.dofadr[0] for j in joints]}
+
+
+@kernel
+def twist(bars, mj, left: int):
+    """Twist of the bar whose left half is number `left` of BARS: (angle rad, rate rad/s)."""
+    return (
+        mj.qpos[int(bars.position[left])] - mj.qpos[int(bars.position[left + 1])],
+        mj.qvel[int(bars.velocity[left])] - mj.qvel[int(bars.velocity[left + 1])],
+    )
+
+
+@kernel
+def apply_bar_torques(bars, mj, front: float, rear: float) -> None:
+    """Put the bar torques (Nm) on the halves' hinges: +M left, -M right."""
+    mj.qfrc_applied[int(bars.velocity[0])], mj.qfrc_applied[int(bars.velocity[1])] = front, -front
+    mj.qfrc_applied[int(bars.velocity[2])], mj.qfrc_applied[int(bars.velocity[3])] = rear, -rear

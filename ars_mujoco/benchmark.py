@@ -1,0 +1,71 @@
+"""Benchmark: the cost of a closed-loop step over a bare mj_step of the same model, in one run.
+
+Rounds alternate between the closed loop (callback, every channel recorded) and the bare step (callback removed, its last
+forces held), both from the same state in mid-manoeuvre, so that a machine that slows down slows both.
+"""
+
+import time
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from ars_mujoco.callback import installed
+from ars_mujoco.native_loop import advance
+from ars_mujoco.setup import Simulation
+from ars_mujoco.simulation import FRAME, empty_recording
+
+ROUND = 1000  # steps
+LEAD = 2.0  # s driven before the first round, so that everything moves
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Medians over the rounds: seconds a step, their ratio round by round, and simulated over wall time."""
+
+    closed_loop: float
+    bare: float
+    ratio: float
+    ratio_quartiles: tuple[float, float]
+    real_time_factor: float
+    rounds: int
+
+
+def measure(simulation: Simulation, rounds: int = 40) -> Cost:
+    """The cost of a step of `simulation`, from `rounds` interleaved rounds."""
+    model, data = simulation.model, simulation.start()
+    channels = len(empty_recording(simulation).channels)
+    stride, out_slot = round(FRAME / model.opt.timestep), simulation.rig.WORLD.fields["out"][1] // 8
+    times, values = np.empty(ROUND), np.empty((ROUND, channels))
+    poses = np.empty((ROUND // stride + 1, model.nbody, 7))
+    state, spec = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_INTEGRATION)), mujoco.mjtState.mjSTATE_INTEGRATION
+
+    def closed_loop() -> None:
+        with installed(simulation.rig, model, data):
+            _timed(lambda: advance(model, data, times, values, poses, stride, out_slot, 0), closed)
+
+    def bare() -> None:
+        _timed(lambda: mujoco.mj_step(model, data, ROUND), open_)
+
+    closed, open_ = [], []
+    with installed(simulation.rig, model, data):
+        for _ in range(round(LEAD / model.opt.timestep)):
+            mujoco.mj_step(model, data)
+    mujoco.mj_getState(model, data, state, spec)
+    for _ in range(rounds):
+        for run in (closed_loop, bare):
+            mujoco.mj_setState(model, data, state, spec)
+            run()
+    ratios = np.divide(closed, open_)
+    closed_step, bare_step = np.median(closed) / ROUND, np.median(open_) / ROUND
+    return Cost(
+        closed_loop=float(closed_step), bare=float(bare_step), ratio=float(np.median(ratios)),
+        ratio_quartiles=tuple(float(q) for q in np.quantile(ratios, (0.25, 0.75))),
+        real_time_factor=float(model.opt.timestep / closed_step), rounds=rounds,
+    )  # fmt: skip
+
+
+def _timed(function, seconds: list[float]) -> None:
+    start = time.perf_counter()
+    function()
+    seconds.append(time.perf_counter() - start)

@@ -1,0 +1,227 @@
+"""The command `ars`. Heavy imports wait until a command needs them, so that listing and refusing are quick."""
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ars_mujoco import library
+from ars_mujoco.errors import ArsError, InputError
+
+app = typer.Typer(
+    help="A testbed for active stabilizer bars.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+RUNS = Path("runs")  # folder of results, unless --out names another
+
+
+class Listing(StrEnum):
+    """What `ars list` can list."""
+
+    CYCLES = "cycles"
+    ACTUATORS = "actuators"
+    VEHICLES = "vehicles"
+    CONTROLLERS = "controllers"
+    CHANNELS = "channels"
+
+
+CycleName = Annotated[str, typer.Argument(metavar="CYCLE", help="Name or path of a cycle.")]
+Actuator = Annotated[str | None, typer.Option(help="Name or path; else the cycle's.")]
+Vehicle = Annotated[str | None, typer.Option(help="Name or path; else the cycle's.")]
+Controller = Annotated[str | None, typer.Option(help="Name or path; else the cycle's.")]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", metavar="KEY=VALUE", help="A value of the cycle, or through it: actuator.front.pump.speed='1500 rpm'."
+    ),
+]
+Out = Annotated[Path | None, typer.Option(help="Folder of the results; else runs/CYCLE.")]
+Json = Annotated[bool, typer.Option("--json", help="A machine-readable result on stdout.")]
+
+
+def main() -> None:
+    """Run the command line; what a user did wrong is one line for each problem on stderr, and exit status 1."""
+    try:
+        app()
+    except ArsError as error:
+        problems = error.problems if isinstance(error, InputError) else [str(error)]
+        sys.exit("\n".join(f"error: {problem}" for problem in problems))
+    except OSError as error:
+        sys.exit(f"error: {error}")
+
+
+@app.command()
+def run(
+    cycle: CycleName,
+    actuator: Actuator = None,
+    vehicle: Vehicle = None,
+    controller: Controller = None,
+    settings: Settings = None,
+    out: Out = None,
+    as_json: Json = False,
+) -> None:
+    """Drive a cycle: a recording to look at, a table to analyse, and its metrics."""
+    _study(cycle, [actuator], vehicle, controller, settings, out, as_json)
+
+
+@app.command()
+def compare(
+    cycle: CycleName,
+    actuators: Annotated[str, typer.Option(help="Names or paths, with commas between; the last is drawn solid.")],
+    vehicle: Vehicle = None,
+    controller: Controller = None,
+    settings: Settings = None,
+    out: Out = None,
+    as_json: Json = False,
+) -> None:
+    """Drive a cycle with several actuators: one recording with all of them, and a table."""
+    _study(cycle, [name.strip() for name in actuators.split(",")], vehicle, controller, settings, out, as_json)
+
+
+@app.command()
+def check(
+    cycles: Annotated[
+        list[str] | None, typer.Argument(metavar="[CYCLE ...]", help="Else all that are shipped.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Drive cycles and hold them to what they expect; exit status 1 where one falls short."""
+    from ars_mujoco.expectation import check as failures_of
+    from ars_mujoco.inputs import read_compared
+    from ars_mujoco.study import study
+
+    verdicts = {}
+    for runs, references in [read_compared(cycle, [None]) for cycle in cycles or library.shipped("cycle")]:
+        with _progress() as progress:
+            (result,) = study(runs, references, None, progress)
+        cycle = runs[0].cycle
+        failures = [str(failure) for failure in failures_of(cycle.value.expect, result.metrics)]
+        verdicts[cycle.name] = {"passed": not failures, "failures": failures}
+        if not as_json:
+            print("\n      ".join([f"{'FAIL' if failures else 'pass'}  {cycle.name}", *failures]))
+    if as_json:
+        _print_json(verdicts)
+    raise typer.Exit(not all(verdict["passed"] for verdict in verdicts.values()))
+
+
+@app.command("list")
+def list_(
+    what: Annotated[Listing | None, typer.Argument(help="Else all but channels.")] = None, as_json: Json = False
+) -> None:
+    """List what is shipped, or the channels of every rig."""
+    wanted = [what] if what else [each for each in Listing if each != Listing.CHANNELS]
+    found = {each.value: _channels() if each == Listing.CHANNELS else _shipped(each) for each in wanted}
+    if as_json:
+        _print_json(found)
+        return
+    for kind, rows in found.items():
+        _print_table(kind, rows)
+
+
+@app.command()
+def view(
+    path: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run or a comparison, or an .rrd file.")],
+) -> None:
+    """Open a recording in the viewer."""
+    import subprocess
+
+    candidates = [path / "compare.rrd", path / "run.rrd"] if path.is_dir() else [path]
+    found = next((each for each in candidates if each.is_file()), None)
+    if found is None:
+        raise InputError(f"no recording '{path}'; allowed: an .rrd file, or the folder of a run or a comparison")
+    raise typer.Exit(subprocess.call([sys.executable, "-m", "rerun", str(found)]))
+
+
+@app.command()
+def bench(as_json: Json = False) -> None:
+    """Cost of a closed-loop step over a bare mj_step of the same model, and the real-time factor."""
+    from ars_mujoco.benchmark import benchmark
+
+    figures = benchmark()
+    _print_json(figures) if as_json else _print_table(
+        "bench", [{"name": name, **each} for name, each in figures.items()]
+    )
+
+
+def _study(cycle, actuators, vehicle, controller, settings, out, as_json) -> None:
+    """Run, write and show a cycle with one or several actuators."""
+    from ars_mujoco.inputs import read_compared
+    from ars_mujoco.recording.summary import summary
+    from ars_mujoco.study import study
+
+    runs, references = read_compared(cycle, actuators, controller, vehicle, settings or ())
+    folder = out or RUNS / runs[0].cycle.name
+    with _progress() as progress:
+        results = study(runs, references, folder, progress)
+    if as_json:
+        _print_json({"folder": str(folder), "runs": {each.name: summary(each.recording) for each in results}})
+        return
+    rows = [{"metric": name, **{each.name: str(each.metrics[name]) for each in results}} for name in results[0].metrics]
+    _print_table(runs[0].cycle.value.title, rows)
+    print(f"Look at it: ars view {folder if len(runs) > 1 else folder / results[0].name}")
+
+
+def _shipped(kind: Listing) -> list[dict[str, str]]:
+    """Name and description of what is shipped of a kind."""
+    return [
+        {"name": name, "description": library.description(path)}
+        for name, path in library.shipped(kind.value.removesuffix("s")).items()
+    ]
+
+
+def _channels() -> list[dict[str, str]]:
+    """Every channel, with its unit, its description and the rigs that record it."""
+    from importlib import import_module
+
+    from ars_mujoco.channels import channels
+
+    found: dict[str, dict[str, str]] = {}
+    for rig in ("sedan", "roll_plane", "bench"):
+        for channel in channels(import_module(f"ars_mujoco.rigs.{rig}").Output):
+            row = {"name": channel.name, "unit": channel.unit, "description": channel.description, "rigs": rig}
+            if channel.name in found:
+                row["rigs"] = f"{found[channel.name]['rigs']}, {rig}"
+            found[channel.name] = row
+    return list(found.values())
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[str, float], None]]:
+    """Bars on a terminal, one a run; elsewhere nothing."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as bars:
+        tasks: dict[str, Any] = {}
+
+        def show(name: str, share: float) -> None:
+            if name not in tasks:
+                tasks[name] = bars.add_task(name, total=1.0)
+            bars.update(tasks[name], completed=share)
+
+        yield show
+
+
+def _print_json(result: Any) -> None:
+    print(json.dumps(result, indent=2, allow_nan=False))
+
+
+def _print_table(title: str, rows: list[dict[str, str]]) -> None:
+    """Rows with the same keys as a table; not wrapped where nobody looks."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left", title_style="bold", box=None, header_style="dim")
+    for column in rows[0]:
+        table.add_column(column, overflow="fold")
+    for row in rows:
+        table.add_row(*map(str, row.values()))
+    Console(width=None if sys.stdout.isatty() else 240).print(table)

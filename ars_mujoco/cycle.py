@@ -1,0 +1,213 @@
+"""Cycle: a manoeuvre on a rig as a user writes it: what is driven, for how long, and what is expected of it."""
+
+from functools import cache
+from typing import Annotated, ClassVar, Literal
+
+import numpy as np
+from pydantic import (
+    BeforeValidator,
+    Field,
+    PlainSerializer,
+    PlainValidator,
+    ValidationInfo,
+    create_model,
+    field_validator,
+)
+
+from ars_mujoco import road
+from ars_mujoco.errors import InputError
+from ars_mujoco.expectation import Limit, limits
+from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.signal import signal
+
+Rig = Literal["bench", "roll_plane", "sedan"]
+
+
+class Knots(Parameters):
+    """A quantity over time: [time, value] pairs and how they are joined; held before the first and after the last."""
+
+    join: Literal["smooth", "linear", "step"] = "smooth"  # smooth is s^3 (10 - 15 s + 6 s^2)
+    knots: tuple[tuple[float, float], ...]
+
+    @field_validator("knots")
+    @classmethod
+    def _make_a_signal(cls, knots, info: ValidationInfo):
+        try:
+            signal(*zip(*knots, strict=True) if knots else ((), ()), info.data.get("join", "smooth"))
+        except InputError as error:
+            raise ValueError("; ".join(error.problems)) from None
+        return knots
+
+    def signal(self) -> np.record:
+        """The SIGNAL record of the knots, in s and SI."""
+        return signal(*zip(*self.knots, strict=True), self.join)
+
+
+@cache
+def KnotsOf(unit: str) -> type[Knots]:  # noqa: N802 (reads as a type)
+    """Knots whose values carry a unit of the dimension of `unit`."""
+    knot = tuple[Quantity("s"), Quantity(unit)]
+    return create_model(f"KnotsOf({unit})", __base__=Knots, knots=(tuple[knot, ...], ...))
+
+
+class Follow(Parameters):
+    """The driver follows a path of the curvature lateral acceleration over speed squared."""
+
+    rig: ClassVar[Rig] = "sedan"
+    kind: Literal["follow"]
+    lateral_acceleration: KnotsOf("m/s^2")
+    speed: KnotsOf("m/s") | None = None  # where it changes; else the cycle's
+
+
+class Circle(Parameters):
+    """The driver follows a circle to the left, its speed rising slowly (ISO 4138, constant radius)."""
+
+    rig: ClassVar[Rig] = "sedan"
+    kind: Literal["circle"]
+    radius: Quantity("m", gt=0)
+    speed: KnotsOf("m/s")
+
+
+class StepSteer(Parameters):
+    """Open loop: the steering angle that gives a lateral acceleration in the steady state, in one ramp (ISO 7401)."""
+
+    rig: ClassVar[Rig] = "sedan"
+    kind: Literal["step_steer"]
+    lateral_acceleration: Quantity("m/s^2")
+    start: Quantity("s", ge=0)
+    ramp: Quantity("s", gt=0)
+
+
+class Straight(Parameters):
+    """The driver keeps straight ahead."""
+
+    rig: ClassVar[Rig] = "sedan"
+    kind: Literal["straight"]
+
+
+class BarCommand(Parameters):
+    """The bench: the bar's angle is commanded, its ends are held or moved."""
+
+    rig: ClassVar[Rig] = "bench"
+    kind: Literal["bar_command"]
+    command: KnotsOf("rad")
+    ends: KnotsOf("m") = KnotsOf("m")(knots=[("0 s", "0 m")])  # left end above the right one, x_l - x_r
+
+
+class LateralForce(Parameters):
+    """The roll plane: a lateral force on the body's centre of gravity, over its mass."""
+
+    rig: ClassVar[Rig] = "roll_plane"
+    kind: Literal["lateral_force"]
+    acceleration: KnotsOf("m/s^2")
+
+
+Manoeuvre = Annotated[Follow | Circle | StepSteer | Straight | BarCommand | LateralForce, Field(discriminator="kind")]
+
+RIG_OF = {each.model_fields["kind"].annotation.__args__[0]: each.rig for each in Manoeuvre.__origin__.__args__}
+
+
+class Bump(road.Bump):
+    """A (1 - cos) bump that the wheels of one side roll over; `position` is ahead of the car's start."""
+
+    side: Annotated[float, BeforeValidator(lambda side: _side(side))]
+    height: Quantity("m")
+    length: Quantity("m", gt=0)
+    position: Quantity("m")
+
+
+class Road(Parameters):
+    """The road: flat but for a bump."""
+
+    bump: Bump | None = None
+
+
+# each line of `expect:` is read with its metric's name at hand, because the metric decides the unit
+Limits = Annotated[
+    tuple[Limit, ...],
+    PlainValidator(lambda line: limits(*line)),
+    PlainSerializer(lambda held: [f"{each.relation} {each.bound:g}" for each in held]),
+]
+Expectations = Annotated[
+    dict[str, Limits],
+    BeforeValidator(
+        lambda lines: {name: (name, text) for name, text in lines.items()} if isinstance(lines, dict) else lines
+    ),
+]
+
+
+class Cycle(Parameters):
+    """A cycle's file. Actuator, controller and vehicle are names or paths; the command line may replace them."""
+
+    title: str
+    description: str
+    rig: Rig
+    duration: Quantity("s", gt=0)
+    manoeuvre: Manoeuvre
+    speed: Quantity("m/s", gt=0) | None = Field(None, validate_default=True)  # initial and held; of the sedan
+    road: Road = Road()
+    vehicle: str = Field("", validate_default=True)  # else the rig's own
+    actuator: str = "pump_controlled"
+    controller: str = Field("", validate_default=True)  # else verification on the bench, cascade elsewhere
+    reference: str = "passive"  # the actuator whose roll the roll reduction factor is taken against
+    window: tuple[Quantity("s", ge=0), Quantity("s", gt=0)] | None = None  # of the metrics; else the whole cycle
+    expect: Expectations = {}  # metric -> its limits, held by `ars check`
+
+    @field_validator("manoeuvre")
+    @classmethod
+    def _fits_the_rig(cls, manoeuvre, info: ValidationInfo):
+        rig = info.data.get("rig", manoeuvre.rig)
+        if manoeuvre.rig != rig:
+            fitting = ", ".join(kind for kind, of in RIG_OF.items() if of == rig)
+            raise ValueError(
+                f"'{manoeuvre.kind}' is a manoeuvre of the rig {manoeuvre.rig}, not {rig}; allowed: {fitting}"
+            )
+        return manoeuvre
+
+    @field_validator("speed")
+    @classmethod
+    def _stated_once(cls, speed, info: ValidationInfo):
+        manoeuvre = info.data.get("manoeuvre")
+        if manoeuvre is None:
+            return speed
+        if manoeuvre.rig != "sedan" and speed is not None:
+            raise ValueError(f"the rig {manoeuvre.rig} has no speed")
+        if manoeuvre.rig == "sedan" and (speed is None) == (getattr(manoeuvre, "speed", None) is None):
+            raise ValueError("a sedan's speed is stated once, here or in the manoeuvre")
+        return speed
+
+    @field_validator("vehicle")
+    @classmethod
+    def _default_vehicle(cls, vehicle, info: ValidationInfo):
+        return vehicle or info.data.get("rig", "")
+
+    @field_validator("controller")
+    @classmethod
+    def _default_controller(cls, controller, info: ValidationInfo):
+        return controller or ("verification" if info.data.get("rig") == "bench" else "cascade")
+
+    @field_validator("road")
+    @classmethod
+    def _has_wheels_on_it(cls, road, info: ValidationInfo):
+        if road.bump and info.data.get("rig", "sedan") != "sedan":
+            raise ValueError(f"the rig {info.data['rig']} has no road")
+        return road
+
+    @field_validator("window")
+    @classmethod
+    def _lies_within(cls, window, info: ValidationInfo):
+        if window and not window[0] < window[1] <= info.data.get("duration", window[1]):
+            raise ValueError("needs a start before its end, both within the duration")
+        return window
+
+    def speed_signal(self) -> np.record:
+        """The SIGNAL record of the sedan's speed in m/s."""
+        changing = getattr(self.manoeuvre, "speed", None)
+        return changing.signal() if changing else signal([0.0], [self.speed])
+
+
+def _side(side: object) -> float:
+    sides = {"left": 1.0, "right": -1.0}
+    if side not in sides:
+        raise ValueError("unknown; allowed: left, right")
+    return sides[side]

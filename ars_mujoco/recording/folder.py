@@ -1,0 +1,60 @@
+"""The folder of a run: `run.rrd` written as it goes, `run.parquet` and `summary.json` at its end.
+
+A file carries its final name only when it is whole: it is written under another and renamed.
+"""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+from ars_mujoco.recording.parquet_file import write_parquet
+from ars_mujoco.recording.recording import Recording
+from ars_mujoco.recording.rerun_file import RerunFile, part_of
+from ars_mujoco.recording.summary import write_summary
+
+RRD, PARQUET, SUMMARY = "run.rrd", "run.parquet", "summary.json"
+
+
+class RunFolder:
+    """The folder `path`, made where it is missing, for a run that begins; what an earlier run left in it is removed.
+
+    As a context it closes the Rerun file where the run fails: `run.rrd.part` then holds all up to the failure.
+    """
+
+    def __init__(self, path: Path, run: Recording):
+        self.path = Path(path)
+        self.path.mkdir(parents=True, exist_ok=True)
+        for name in (RRD, PARQUET, SUMMARY):
+            (self.path / name).unlink(missing_ok=True)
+        self.rerun = RerunFile(self.path / RRD, run)
+
+    def __enter__(self) -> "RunFolder":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def append(self, chunk: Recording) -> None:
+        """Show the next seconds of the run."""
+        self.rerun.append(chunk)
+
+    def close(self) -> None:
+        """End a run that has failed: what was shown so far stays, under the unfinished name."""
+        self.rerun.close()
+
+    def finish(self, run: Recording) -> None:
+        """Write what the whole `run` leaves, metrics included; the summary comes last and says that all is there."""
+        self.rerun.write()  # Rerun's thread writes while this one makes the table
+        write_whole(self.path / PARQUET, lambda part: write_parquet(part, run))
+        self.rerun.finish(run)
+        write_whole(self.path / SUMMARY, lambda part: write_summary(part, run))
+
+
+def write_whole(path: Path, write: Callable[[Path], None]) -> None:
+    """Let `write` fill a file under another name, then give it the name `path`; nothing is left where it fails."""
+    part = part_of(path)
+    try:
+        write(part)
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)

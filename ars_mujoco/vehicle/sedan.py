@@ -1,0 +1,118 @@
+"""The sedan's file: every parameter of the car, with its unit and limits. Values and sources: mjcf/sedan/sedan.yaml.
+
+Lengths are in the design pose, the car at rest on a level road; x forward from the sprung centre of gravity, y left,
+z up from the road.
+"""
+
+import math
+
+from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.tires.tire import Tire
+
+GRAVITY = 9.81  # m/s^2, as in the models
+
+
+class Sprung(Parameters):
+    """The body with all it carries."""
+
+    mass: Quantity("kg", gt=0)
+    roll_inertia: Quantity("kg*m^2", gt=0)  # these three about the sprung centre of gravity
+    pitch_inertia: Quantity("kg*m^2", gt=0)
+    yaw_inertia: Quantity("kg*m^2", gt=0)
+    cg_height: Quantity("m", gt=0)
+
+
+class Bar(Parameters):
+    """Stabilizer bar of one axle, its arms pointing rearward and its drop links in the plane of the axle."""
+
+    arm: Quantity("m", gt=0)
+    stiffness: Quantity("Nm/rad", gt=0)  # torsion of the split bar, both halves in series
+    passive_stiffness: Quantity("Nm/rad", ge=0)  # torsion of the conventional bar in its place
+    link_ratio: Number(gt=0, lt=1)  # travel of the drop link over travel of the wheel
+    link_length: Quantity("m", gt=0)
+    height: Quantity("m", gt=0)  # of the bar's axis above the road
+
+
+class Axle(Parameters):
+    """One axle; rates and masses are per wheel."""
+
+    track: Quantity("m", gt=0)
+    roll_centre_height: Quantity("m")
+    camber_gain: Quantity("rad/m", gt=0)  # camber change over wheel travel, top inwards in jounce
+    wheel_rate: Quantity("N/m", gt=0)
+    damping: Quantity("Ns/m", ge=0)
+    unsprung_mass: Quantity("kg", gt=0)  # the wheel included
+    wheel_mass: Quantity("kg", gt=0)  # the part that spins
+    spin_inertia: Quantity("kg*m^2", gt=0)
+    bar: Bar
+    tire: Tire
+
+    @property
+    def swing_arm(self) -> float:
+        """Horizontal length (m) of the equivalent swing arm, instant centre to contact patch."""
+        return 1.0 / self.camber_gain
+
+    @property
+    def instant_centre_height(self) -> float:
+        """Height (m) of the instant centre, on the line from the contact patch through the roll centre."""
+        return self.swing_arm * self.roll_centre_height / (self.track / 2)
+
+
+class Steering(Parameters):
+    """Front steering: the compliance between the commanded and the real angle of a wheel, and the steer axis."""
+
+    stiffness: Quantity("Nm/rad", gt=0)  # per wheel, about the steer axis
+    damping: Quantity("Nms/rad", ge=0)
+    caster: Quantity("rad", ge=0, lt=math.pi / 4)  # rearward lean of the steer axis, through the wheel centre
+    knuckle_mass: Quantity("kg", gt=0)  # steered, without the wheel
+
+
+class SensorPlace(Parameters):
+    """Where the lateral accelerometer sits on the centre line."""
+
+    ahead: Quantity("m")  # of the sprung centre of gravity
+    height: Quantity("m", ge=0)
+
+
+class Sedan(Parameters):
+    """A car with two axles, steered in front."""
+
+    sprung: Sprung
+    wheelbase: Quantity("m", gt=0)
+    cg_to_front_axle: Quantity("m", gt=0)  # of the sprung mass
+    front: Axle
+    rear: Axle
+    steering: Steering
+    accelerometer: SensorPlace
+
+    @property
+    def axles(self) -> dict[str, Axle]:
+        """The two axles by name."""
+        return {"front": self.front, "rear": self.rear}
+
+    @property
+    def mass(self) -> float:
+        """Mass (kg) of the whole car."""
+        return self.sprung.mass + 2 * (self.front.unsprung_mass + self.rear.unsprung_mass)
+
+    @property
+    def axle_position(self) -> dict[str, float]:
+        """x (m) of each axle from the sprung centre of gravity."""
+        return {"front": self.cg_to_front_axle, "rear": self.cg_to_front_axle - self.wheelbase}
+
+    @property
+    def wheel_load(self) -> dict[str, float]:
+        """Static load (N) of a wheel of each axle."""
+        ahead = self.cg_to_front_axle / self.wheelbase
+        share = {"front": 1 - ahead, "rear": ahead}
+        return {
+            name: GRAVITY * (axle.unsprung_mass + share[name] * self.sprung.mass / 2)
+            for name, axle in self.axles.items()
+        }
+
+    @property
+    def wheel_centre_height(self) -> dict[str, float]:
+        """Height (m) of the wheel centres of each axle at rest."""
+        return {
+            name: axle.tire.radius - self.wheel_load[name] / axle.tire.stiffness for name, axle in self.axles.items()
+        }

@@ -1,0 +1,156 @@
+"""The command line: what it prints, what it writes, and how it refuses."""
+
+import json
+import subprocess
+import sys
+import time
+
+import pyarrow.parquet as pq
+import pytest
+
+from ars_mujoco import cli
+
+BENCH_CYCLE = """\
+title: A small step
+description: One degree on the bench.
+rig: bench
+duration: 50 ms
+manoeuvre:
+  kind: bar_command
+  command: {join: step, knots: [[0 s, 1 deg]]}
+expect:
+  energy_audit_error: "<= 0.1 %"
+"""
+
+
+@pytest.fixture
+def ars(monkeypatch, capsys, tmp_path):
+    """Run `ars` in an empty folder with a small cycle in it; returns (exit status, stdout, stderr)."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "small.yaml").write_text(BENCH_CYCLE)
+
+    def call(*arguments):
+        monkeypatch.setattr(sys, "argv", ["ars", *arguments])
+        with pytest.raises(SystemExit) as leaving:
+            cli.main()
+        out, err = capsys.readouterr()
+        if isinstance(leaving.value.code, str):  # what Python prints on stderr as it leaves with status 1
+            return 1, out, err + leaving.value.code
+        return leaving.value.code or 0, out, err
+
+    return call
+
+
+def test_list_shows_what_is_shipped(ars):
+    status, out, _ = ars("list")
+    assert status == 0
+    assert all(name in out for name in ("s_curve_120kmh", "pump_controlled", "sedan", "cascade"))
+
+
+def test_list_is_machine_readable(ars):
+    status, out, _ = ars("list", "cycles", "--json")
+    assert status == 0
+    assert {"name": "s_curve_120kmh", "description": "S-curve at 120 km/h"} in json.loads(out)["cycles"]
+
+
+def test_every_listed_channel_has_a_unit_and_a_description(ars):
+    channels = json.loads(ars("list", "channels", "--json")[1])["channels"]
+    assert {"body.roll", "front.bar.angle", "fl.tire.vertical_force"} <= {each["name"] for each in channels}
+    assert all(each["unit"] and each["description"] for each in channels)
+
+
+def test_listing_does_not_load_what_it_does_not_need():
+    loaded = "import sys; from ars_mujoco import cli; cli._shipped(cli.Listing.CYCLES); print(*sys.modules)"
+    modules = subprocess.run([sys.executable, "-c", loaded], capture_output=True, text=True, check=True).stdout.split()
+    assert not {"numba", "mujoco", "rerun", "pint", "pyarrow"} & set(modules)
+
+
+def test_a_run_writes_its_folder(ars, tmp_path):
+    status, out, _ = ars("run", "small.yaml", "--out", "here")
+    assert status == 0
+    assert "energy_audit_error" in out
+    folder = tmp_path / "here" / "pump_controlled"
+    assert sorted(path.name for path in folder.iterdir()) == ["run.parquet", "run.rrd", "summary.json"]
+    schema = pq.read_schema(folder / "run.parquet")
+    assert schema.names[0] == "time"
+    assert schema.field("front.bar.angle").metadata[b"unit"] == b"rad"
+
+
+def test_the_same_command_twice_gives_the_same_columns(ars, tmp_path):
+    for out in ("once", "twice"):
+        assert ars("run", "small.yaml", "--out", out)[0] == 0
+    once, twice = (pq.read_table(tmp_path / out / "pump_controlled" / "run.parquet") for out in ("once", "twice"))
+    assert once.equals(twice)
+
+
+def test_a_run_is_machine_readable(ars):
+    status, out, _ = ars("run", "small.yaml", "--set", "actuator.front.pump.speed=1500 rpm", "--json")
+    result = json.loads(out)
+    assert status == 0
+    assert result["folder"] == "runs/small"
+    inputs = result["runs"]["pump_controlled"]["inputs"]
+    assert inputs["actuator"]["overrides"] == ["--set actuator.front.pump.speed=1500 rpm"]
+    assert inputs["actuator"]["values"]["front"]["pump"]["speed"] == pytest.approx(157.0796)
+
+
+def test_check_passes_a_cycle_that_keeps_its_limits(ars):
+    status, out, _ = ars("check", "small.yaml")
+    assert (status, out) == (0, "pass  small\n")
+
+
+def test_check_fails_a_cycle_that_does_not(ars, tmp_path):
+    (tmp_path / "strict.yaml").write_text(BENCH_CYCLE.replace("<= 0.1 %", ">= 10 %"))
+    status, out, _ = ars("check", "strict.yaml", "--json")
+    verdict = json.loads(out)["strict"]
+    assert (status, verdict["passed"], len(verdict["failures"])) == (1, False, 1)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error"),
+    [
+        (["run", "smal.yaml"], "no cycle 'smal.yaml'; did you mean 'small.yaml'?"),
+        (
+            ["run", "small.yaml", "--set", "duraton=3 s"],
+            "--set duraton=3 s: duraton: unknown key; did you mean 'duration'?",
+        ),
+        (
+            ["run", "small.yaml", "--set", "duration=3"],
+            "--set duration=3: duration: '3': needs a unit: s, ms, min or h",
+        ),
+        (
+            ["run", "small.yaml", "--set", "duration=nan s"],
+            "--set duration=nan s: duration: 'nan s': not a finite number",
+        ),
+        (
+            ["run", "small.yaml", "--vehicle", "sedan"],
+            "vehicle 'sedan' is of another rig than the cycle's, bench; allowed: bench",
+        ),
+        (["run", "small.yaml", "--actuator", "passive"], "actuator 'passive' has nothing to command on the bench"),
+        (
+            ["compare", "small.yaml", "--actuators", "pump_controlled,pump_controlled"],
+            "actuators pump_controlled, pump_",
+        ),
+        (["check", "small"], "no cycle 'small'"),
+        (["view", "nowhere"], "no recording 'nowhere'; allowed: an .rrd file, or the folder of a run or a comparison"),
+    ],
+)
+def test_bad_input_is_one_clear_line_and_leaves_no_result(ars, tmp_path, arguments, error):
+    status, out, err = ars(*arguments)
+    assert (status, out) == (1, "")
+    assert err.startswith("error: " + error)
+    assert "\n" not in err.strip()
+    assert not list(tmp_path.rglob("run.*"))
+
+
+def test_a_wrong_option_is_a_usage_error(ars):
+    status, _, err = ars("run", "small.yaml", "--actuatr", "passive")
+    assert status == 2
+    assert "No such option" in err
+
+
+@pytest.mark.slow
+def test_list_is_quick():
+    start = time.perf_counter()
+    command = [sys.executable, "-c", "from ars_mujoco.cli import main; main()", "list"]
+    assert b"s_curve_120kmh" in subprocess.run(command, capture_output=True, check=True).stdout
+    assert time.perf_counter() - start < 0.7
