@@ -21,6 +21,7 @@ app = typer.Typer(
 )
 
 RUNS = Path("runs")  # folder of results, unless --out names another
+BENCH_CYCLE = "s_curve_120kmh"  # the sedan with everything on it
 
 
 class Listing(StrEnum):
@@ -129,6 +130,7 @@ def list_(
 @app.command()
 def view(
     path: Annotated[Path, typer.Argument(metavar="RUN", help="Folder of a run or a comparison, or an .rrd file.")],
+    as_json: Json = False,
 ) -> None:
     """Open a recording in the viewer."""
     import subprocess
@@ -137,18 +139,27 @@ def view(
     found = next((each for each in candidates if each.is_file()), None)
     if found is None:
         raise InputError(f"no recording '{path}'; allowed: an .rrd file, or the folder of a run or a comparison")
+    if as_json:
+        _print_json({"recording": str(found)})
     raise typer.Exit(subprocess.call([sys.executable, "-m", "rerun", str(found)]))
 
 
 @app.command()
 def bench(as_json: Json = False) -> None:
     """Cost of a closed-loop step over a bare mj_step of the same model, and the real-time factor."""
-    from ars_mujoco.benchmark import benchmark
+    from dataclasses import asdict
 
-    figures = benchmark()
-    _print_json(figures) if as_json else _print_table(
-        "bench", [{"name": name, **each} for name, each in figures.items()]
-    )
+    from ars_mujoco.benchmark import measure
+    from ars_mujoco.inputs import read_inputs
+    from ars_mujoco.study import simulation_of
+
+    cost = measure(simulation_of(read_inputs(BENCH_CYCLE)))
+    if as_json:
+        _print_json({"cycle": BENCH_CYCLE, **asdict(cost)})
+        return
+    print(f"closed loop  {1e6 * cost.closed_loop:.2f} us a step, {cost.real_time_factor:.0f} times real time")
+    print(f"bare step    {1e6 * cost.bare:.2f} us")
+    print("ratio        {:.3f}, quartiles {:.3f} to {:.3f}".format(cost.ratio, *cost.ratio_quartiles))
 
 
 def _study(cycle, actuators, vehicle, controller, settings, out, as_json) -> None:

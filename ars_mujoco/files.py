@@ -93,7 +93,7 @@ class Document:
         self._origins: dict[Keys, int | str] = {(): 1}  # a line of the file, or an override
         try:
             root = yaml.compose(text, Loader=yaml.BaseLoader)
-            self.tree = self._value(root, ()) if root else {}
+            tree = self._value(root, ()) if root else None
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             raise InputError(f"{name}:{mark.line + 1}: {error.problem or error.context}") from None
@@ -101,6 +101,7 @@ class Document:
             raise InputError(f"{name}: {str(error).splitlines()[0]}") from None
         except RecursionError:
             raise InputError(f"{name}: nested too deeply, or an alias that refers to itself") from None
+        self.tree = {} if tree is None else tree
 
     def override(self, setting: Override) -> None:
         """Set one value; blocks missing on the way to it are made, for the schema to judge."""
@@ -112,7 +113,7 @@ class Document:
                 self._origins[keys[:depth]] = setting.text
             block = block[key] if isinstance(block, dict) else None
         if not isinstance(block, dict):
-            self._problems.append((setting.text, f"{'.'.join(way)}: holds no keys"))
+            self._problems.append((setting.text, f"{_dotted(tuple(way))}holds no keys"))
             return
         self._forget(keys)
         self._origins[keys] = setting.text

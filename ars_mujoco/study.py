@@ -17,7 +17,7 @@ from ars_mujoco.metrics import Run, Value, measure
 from ars_mujoco.recording.comparison import write_comparison
 from ars_mujoco.recording.folder import RunFolder
 from ars_mujoco.recording.recording import Recording
-from ars_mujoco.setup import prepare
+from ars_mujoco.setup import Simulation, prepare
 from ars_mujoco.simulation import empty_recording, simulate
 
 COMPARISON = "compare.rrd"
@@ -53,14 +53,20 @@ def study(runs: Sequence[Inputs], references: Sequence[Inputs], out: Path | None
     return results
 
 
+def simulation_of(inputs: Inputs) -> Simulation:
+    """The simulation of `inputs`, which it keeps for its recording."""
+    parts = (inputs.cycle.value, inputs.actuator.value, inputs.controller.value, inputs.vehicle.value)
+    return replace(prepare(*parts), inputs=inputs.record())
+
+
 class _Simulated:
     """A run that is simulated but not yet measured."""
 
     def __init__(self, inputs: Inputs, folder: Path | None, progress: Progress):
         self.inputs = inputs
         name, duration = inputs.actuator.name, inputs.cycle.value.duration
-        parts = (inputs.cycle.value, inputs.actuator.value, inputs.controller.value, inputs.vehicle.value)
-        simulation = replace(prepare(*parts), inputs=inputs.record())
+        progress(name, 0.0)
+        simulation = simulation_of(inputs)
         self.folder = RunFolder(folder, empty_recording(simulation)) if folder else None
 
         def show(chunk: Recording) -> None:

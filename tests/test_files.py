@@ -5,10 +5,13 @@ from typing import Annotated, Literal
 
 import numpy as np
 import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
 from pydantic import Field
 
 from ars_mujoco.errors import InputError
-from ars_mujoco.files import override, read
+from ars_mujoco.files import Document, override, read
 from ars_mujoco.parameters import Number, Parameters, Quantity, fill, record_dtype
 
 
@@ -187,3 +190,20 @@ def test_an_empty_file_misses_every_key(machine):
         "front",
         "rear",
     ]
+
+
+trees = st.recursive(
+    st.none() | st.text("am1 -:'\n", max_size=5),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(list(Machine.model_fields)), inner),
+    max_leaves=12,
+)
+
+
+@given(tree=trees, setting=st.sampled_from(["mass=1 kg", "front.mass=1 kg", "knots.0=3", "element.kind=spring"]))
+def test_whatever_yaml_holds_is_read_or_refused_in_clear_lines(tree, setting):
+    document = Document("machine.yaml", yaml.safe_dump(tree))
+    document.override(override(setting))
+    try:
+        document.validate(Machine)
+    except InputError as error:
+        assert all(each.startswith(("machine.yaml:", "--set ")) for each in error.problems)

@@ -14,7 +14,9 @@ from ars_mujoco.hydraulics.reduced_circuit import (
     CircuitState,
     ReducedCircuit,
     advance,
+    advance_both,
     rates,
+    read,
     stored_energy,
 )
 from ars_mujoco.kernel import kernel
@@ -87,38 +89,60 @@ class AxleOutput(Parameters):
 
 
 @kernel
-def stabilize(axle, now, later, out, twisted, command, gain, stroke_bias, step) -> float:
-    """Advance one axle by `step` s and return its bar torque (Nm) over that step.
+def stabilize(p, now, later, front_out, rear_out, front_twist, rear_twist, front_demand, rear_demand, step):
+    """Advance both axles by `step` s and return their bar torques (front, rear) in Nm over that step.
 
-    `command`, `gain` and `stroke_bias` as in `reduced_circuit.advance`; `twisted` is the twist now, (rad, rad/s).
+    `p`, `now`, `later` are records with a `front` and a `rear` of Axle and AxleState, the outs are AxleOutput records.
+    Twists now are (rad, rad/s); a demand is (command, gain, stroke_bias), as in `reduced_circuit.advance`.
     """
-    twist, twist_rate = twisted
-    work = now.work + now.torque * step * 0.5 * (now.twist_rate + twist_rate)
-    out.energy.work = work
-    out.bar.twist = twist
+    if p.front.kind == PUMP_CONTROLLED and p.rear.kind == PUMP_CONTROLLED:
+        front_torque, rear_torque = advance_both(
+            p.front.circuit, p.rear.circuit, p.front.stiffness, p.rear.stiffness,
+            now.front.circuit, now.rear.circuit, later.front.circuit, later.rear.circuit,
+            now.front.energy, now.rear.energy, later.front.energy, later.rear.energy,
+            (*front_demand, front_twist[0]), (*rear_demand, rear_twist[0]),
+            step, int(max(p.front.substeps, p.rear.substeps)),
+        )  # fmt: skip
+    else:
+        front_torque = _alone(p.front, now.front, later.front, front_twist[0], front_demand, step)
+        rear_torque = _alone(p.rear, now.rear, later.rear, rear_twist[0], rear_demand, step)
+    _finish(p.front, now.front, later.front, front_out, front_twist, front_demand, front_torque, step)
+    _finish(p.rear, now.rear, later.rear, rear_out, rear_twist, rear_demand, rear_torque, step)
+    return front_torque, rear_torque
+
+
+@kernel
+def _alone(axle, now, later, twist, demand, step):
+    # bar torque of an axle whose neighbour is of another kind
     if axle.kind == PUMP_CONTROLLED:
-        _report(axle, now, out, twist)
-        torque = advance(
+        command, gain, stroke_bias = demand
+        return advance(
             axle.circuit, axle.stiffness, now.circuit, later.circuit, now.energy, later.energy,
             command, gain, stroke_bias, twist, step, int(axle.substeps),
         )  # fmt: skip
-        out.bar.command = command[0]
+    return -axle.stiffness * twist
+
+
+@kernel
+def _finish(axle, now, later, out, twisted, demand, torque, step):
+    # the work of the step before is known now; the outputs are those of the state now
+    twist, twist_rate = twisted
+    work = now.work + now.torque * step * 0.5 * (now.twist_rate + twist_rate)
+    out.energy.work = work
+    out.bar.twist, out.bar.torque = twist, torque
+    if axle.kind == PUMP_CONTROLLED:
+        out.bar.command = demand[0][0]
+        _report(axle, now, out, twist)
     else:
-        torque = -axle.stiffness * twist
         out.energy.bar = 0.5 * axle.stiffness * twist * twist
-    out.bar.torque = torque
     later.work, later.torque, later.twist_rate = work, torque, twist_rate
-    return torque
 
 
 @kernel
 def _report(axle, now, out, twist):
     circuit = axle.circuit
     state = now.circuit
-    derivatives, powers = rates(
-        circuit, axle.stiffness,
-        (state.spool, state.spool_rate, state.stroke, state.pressure, state.angle, state.rate), 0.0, twist,
-    )  # fmt: skip
+    _, powers = rates(circuit, axle.stiffness, read(state), 0.0, twist)
     shaft, loss, squared_pressure, relief, friction, _, motor, _ = powers
     out.bar.angle = state.angle
     out.motor.pressure, out.motor.rate = state.pressure, state.rate

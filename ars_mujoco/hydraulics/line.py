@@ -20,7 +20,7 @@ def middle_volume(line, motor) -> float:
 @kernel
 def capacitance(line, motor, angle: float) -> float:
     """Series capacitance (m^3/Pa) of both sides at a motor angle: eq. 32 with the minus sign that its algebra gives."""
-    share = motor.displacement * angle / middle_volume(line, motor)
+    share = motor.displacement / middle_volume(line, motor) * angle
     return line.capacitance * (1.0 - share * share)
 
 

@@ -29,7 +29,7 @@ def ideal_flow(pump, stroke: float) -> float:
 @kernel
 def torque_loss(pump, stroke: float, pressure: float) -> float:
     """Torque loss (Nm), positive in all four quadrants: eq. 22 in |X|, n and |dp| with (.)/(.)_norm to each power."""
-    relative = abs(pressure) / pump.normal_pressure
+    relative = 1.0 / pump.normal_pressure * abs(pressure)
     return pump.loss_torque * (
         pump.loss_constant
         + pump.loss_speed * pump.speed / pump.normal_speed

@@ -8,6 +8,8 @@ Signs: positive stroke X delivers into the side whose pressure difference dp dri
 phi twists the bar, and the bar pushes the body to negative roll. Both loops live inside the substeps, because holding
 either over a physics step costs accuracy; a control unit that samples gives its stroke command as `stroke_bias`
 instead and sets `gain` to zero.
+
+Constants divide before they multiply (1 / inertia * torque), so that a division leaves the loop over the substeps.
 """
 
 import math
@@ -25,6 +27,7 @@ from ars_mujoco.parameters import Parameters, Quantity
 from ars_mujoco.saturation import saturate
 
 RK4_REAL_LIMIT = 2.785  # |lambda h| up to which the classical Runge-Kutta step is stable on the negative real axis
+NOTHING = (0.0,) * 10
 STIFFNESS_MARGIN = 0.92  # of that limit: the friction's own eigenvalue moves a little as the bar loads the motor
 
 
@@ -108,7 +111,7 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
         stroke_rate(circuit.swash_plate, spool),
         (flow - (pump.leakage + motor.leakage) * pressure - relief - displaced) / capacitance(circuit.line, motor, angle),
         rate,
-        (motor.displacement * pressure - bar_torque - stop_torque(motor, angle) - friction) / motor.inertia,
+        1.0 / motor.inertia * (motor.displacement * pressure - bar_torque - stop_torque(motor, angle) - friction),
     )
     loss = torque_loss(pump, stroke, pressure) * pump.speed
     powers = (
@@ -132,46 +135,56 @@ def advance(
 
     `now` and `later` are CircuitState records (they may be the same), `energy_*` CircuitEnergy records. The stroke
     command at a stage is the saturated `stroke_bias + gain (phi_c(t) - phi)`, where `command` = (c0, c1, c2) is the
-    commanded angle c0 + c1 t + c2 t^2 (rad) since the start of the step. `bar_stiffness` is
-    c_stabi (Nm/rad), the torsion of both halves in series; the bar's twist (rad) is held.
+    commanded angle c0 + c1 t + c2 t^2 (rad) since the start of the step. `bar_stiffness` is c_stabi
+    (Nm/rad), the torsion of both halves in series; the bar's twist (rad) is held.
     """
-    state = (now.spool, now.spool_rate, now.stroke, now.pressure, now.angle, now.rate)
-    h = step / count
-    shaft = recovered = loss = squared = relief = friction = compliance = motor = throughput = torque = 0.0
+    demand, h = (command, gain, stroke_bias, twist), step / count
+    state, sums = read(now), NOTHING
     for i in range(count):
         t = i * h
-        k1, p1 = rates(circuit, bar_stiffness, state, _stroke_command(command, gain, stroke_bias, t, state[4]), twist)
-        s2 = _along(state, k1, 0.5 * h)
-        k2, p2 = rates(circuit, bar_stiffness, s2, _stroke_command(command, gain, stroke_bias, t + 0.5 * h, s2[4]), twist)
-        s3 = _along(state, k2, 0.5 * h)
-        k3, p3 = rates(circuit, bar_stiffness, s3, _stroke_command(command, gain, stroke_bias, t + 0.5 * h, s3[4]), twist)
-        s4 = _along(state, k3, h)
-        k4, p4 = rates(circuit, bar_stiffness, s4, _stroke_command(command, gain, stroke_bias, t + h, s4[4]), twist)
-        state = _runge_kutta(state, k1, k2, k3, k4, h)
-        power = _weighted(p1, p2, p3, p4)
-        shaft += power[0]
-        recovered += max(-power[0], 0.0)
-        loss += power[1]
-        squared += power[2]
-        relief += power[3]
-        friction += power[4]
-        compliance += power[5]
-        motor += power[6]
-        throughput += abs(power[0]) + abs(power[6])
-        torque += power[7]
-    later.spool, later.spool_rate, later.stroke, later.pressure, later.angle, later.rate = state
-    energy_later.shaft = energy_now.shaft + h * shaft
-    energy_later.recovered = energy_now.recovered + h * recovered
-    energy_later.pump_torque_loss = energy_now.pump_torque_loss + h * loss
-    energy_later.pump_leakage = energy_now.pump_leakage + h * circuit.pump.leakage * squared
-    energy_later.motor_leakage = energy_now.motor_leakage + h * circuit.motor.leakage * squared
-    energy_later.relief = energy_now.relief + h * relief
-    energy_later.friction = energy_now.friction + h * friction
-    energy_later.capacitance = energy_now.capacitance + h * compliance
-    energy_later.charge = energy_now.charge + step * circuit.charge_power
-    energy_later.motor = energy_now.motor + h * motor
-    energy_later.throughput = energy_now.throughput + h * throughput
-    return torque / count
+        k1, p1 = _stage(circuit, bar_stiffness, demand, t, state)
+        k2, p2 = _stage(circuit, bar_stiffness, demand, t + 0.5 * h, _along(state, k1, 0.5 * h))
+        k3, p3 = _stage(circuit, bar_stiffness, demand, t + 0.5 * h, _along(state, k2, 0.5 * h))
+        k4, p4 = _stage(circuit, bar_stiffness, demand, t + h, _along(state, k3, h))
+        state, sums = _runge_kutta(state, k1, k2, k3, k4, h), _accumulate(sums, p1, p2, p3, p4)
+    return _write(circuit, state, sums, later, energy_now, energy_later, step, count)
+
+
+@kernel
+def advance_both(
+    f, r, f_stiffness, r_stiffness, f_now, r_now, f_later, r_later,
+    f_energy_now, r_energy_now, f_energy_later, r_energy_later, f_demand, r_demand, step, count,
+):  # fmt: skip
+    """Advance two circuits, front and rear, in lockstep; return their mean bar torques (Nm).
+
+    The arguments are those of `advance`, of the front and of the rear one; a demand is (command, gain, stroke_bias,
+    twist). Two independent chains of arithmetic in one loop take little longer than one, because a processor works on
+    both at once; the results are those of `advance`.
+    """
+    f_state, r_state, f_sums, r_sums = read(f_now), read(r_now), NOTHING, NOTHING
+    h = step / count
+    for i in range(count):
+        t = i * h
+        k1, p1 = _stage(f, f_stiffness, f_demand, t, f_state)
+        l1, q1 = _stage(r, r_stiffness, r_demand, t, r_state)
+        k2, p2 = _stage(f, f_stiffness, f_demand, t + 0.5 * h, _along(f_state, k1, 0.5 * h))
+        l2, q2 = _stage(r, r_stiffness, r_demand, t + 0.5 * h, _along(r_state, l1, 0.5 * h))
+        k3, p3 = _stage(f, f_stiffness, f_demand, t + 0.5 * h, _along(f_state, k2, 0.5 * h))
+        l3, q3 = _stage(r, r_stiffness, r_demand, t + 0.5 * h, _along(r_state, l2, 0.5 * h))
+        k4, p4 = _stage(f, f_stiffness, f_demand, t + h, _along(f_state, k3, h))
+        l4, q4 = _stage(r, r_stiffness, r_demand, t + h, _along(r_state, l3, h))
+        f_state, f_sums = _runge_kutta(f_state, k1, k2, k3, k4, h), _accumulate(f_sums, p1, p2, p3, p4)
+        r_state, r_sums = _runge_kutta(r_state, l1, l2, l3, l4, h), _accumulate(r_sums, q1, q2, q3, q4)
+    return (
+        _write(f, f_state, f_sums, f_later, f_energy_now, f_energy_later, step, count),
+        _write(r, r_state, r_sums, r_later, r_energy_now, r_energy_later, step, count),
+    )
+
+
+@kernel
+def read(state):
+    """A CircuitState record as the tuple that `rates` takes."""
+    return state.spool, state.spool_rate, state.stroke, state.pressure, state.angle, state.rate
 
 
 @kernel
@@ -187,9 +200,10 @@ def stored_energy(circuit, bar_stiffness: float, state, twist: float):
 
 
 @kernel
-def _stroke_command(command, gain, bias, t, angle):
-    c0, c1, c2 = command
-    return saturate(bias + gain * (c0 + t * (c1 + t * c2) - angle), 1.0)
+def _stage(circuit, bar_stiffness, demand, t, state):
+    (c0, c1, c2), gain, bias, twist = demand
+    stroke_command = saturate(bias + gain * (c0 + t * (c1 + t * c2) - state[4]), 1.0)
+    return rates(circuit, bar_stiffness, state, stroke_command, twist)
 
 
 @kernel
@@ -218,15 +232,43 @@ def _runge_kutta(state, k1, k2, k3, k4, h):
 
 
 @kernel
-def _weighted(p1, p2, p3, p4):
-    w, d = 1.0 / 6.0, 2.0
+def _accumulate(sums, p1, p2, p3, p4):
+    # the powers of `rates` with the weights of the states, then recovered power and throughput, which need |.|
+    shaft, motor = _mean(p1[0], p2[0], p3[0], p4[0]), _mean(p1[6], p2[6], p3[6], p4[6])
     return (
-        w * (p1[0] + d * (p2[0] + p3[0]) + p4[0]),
-        w * (p1[1] + d * (p2[1] + p3[1]) + p4[1]),
-        w * (p1[2] + d * (p2[2] + p3[2]) + p4[2]),
-        w * (p1[3] + d * (p2[3] + p3[3]) + p4[3]),
-        w * (p1[4] + d * (p2[4] + p3[4]) + p4[4]),
-        w * (p1[5] + d * (p2[5] + p3[5]) + p4[5]),
-        w * (p1[6] + d * (p2[6] + p3[6]) + p4[6]),
-        w * (p1[7] + d * (p2[7] + p3[7]) + p4[7]),
+        sums[0] + shaft,
+        sums[1] + _mean(p1[1], p2[1], p3[1], p4[1]),
+        sums[2] + _mean(p1[2], p2[2], p3[2], p4[2]),
+        sums[3] + _mean(p1[3], p2[3], p3[3], p4[3]),
+        sums[4] + _mean(p1[4], p2[4], p3[4], p4[4]),
+        sums[5] + _mean(p1[5], p2[5], p3[5], p4[5]),
+        sums[6] + motor,
+        sums[7] + _mean(p1[7], p2[7], p3[7], p4[7]),
+        sums[8] + max(-shaft, 0.0),
+        sums[9] + abs(shaft) + abs(motor),
     )
+
+
+@kernel
+def _mean(a, b, c, d):
+    return (a + 2.0 * (b + c) + d) * (1.0 / 6.0)
+
+
+@kernel
+def _write(circuit, state, sums, later, energy_now, energy_later, step, count):
+    # the new state and energies into their records; returns the mean bar torque
+    later.spool, later.spool_rate, later.stroke, later.pressure, later.angle, later.rate = state
+    h = step / count
+    shaft, loss, squared_pressure, relief, friction, compliance, motor, torque, recovered, throughput = sums
+    energy_later.shaft = energy_now.shaft + h * shaft
+    energy_later.recovered = energy_now.recovered + h * recovered
+    energy_later.pump_torque_loss = energy_now.pump_torque_loss + h * loss
+    energy_later.pump_leakage = energy_now.pump_leakage + h * circuit.pump.leakage * squared_pressure
+    energy_later.motor_leakage = energy_now.motor_leakage + h * circuit.motor.leakage * squared_pressure
+    energy_later.relief = energy_now.relief + h * relief
+    energy_later.friction = energy_now.friction + h * friction
+    energy_later.capacitance = energy_now.capacitance + h * compliance
+    energy_later.charge = energy_now.charge + step * circuit.charge_power
+    energy_later.motor = energy_now.motor + h * motor
+    energy_later.throughput = energy_now.throughput + h * throughput
+    return torque / count

@@ -27,7 +27,7 @@ def friction_torque(motor, rate: float) -> float:
     dry = motor.coulomb_friction
     if motor.static_friction > 0.0:
         dry += motor.static_friction * math.exp(-motor.static_decay * abs(rate))
-    return dry * _rounded_sign(rate / motor.friction_speed) + motor.viscous_friction * rate
+    return dry * _rounded_sign(1.0 / motor.friction_speed * rate) + motor.viscous_friction * rate
 
 
 @kernel
@@ -48,9 +48,5 @@ def stop_torque(motor, angle: float) -> float:
 
 @kernel
 def _rounded_sign(x: float) -> float:
-    # tanh(20) is 1 to the last bit of a double: most of the time the motor moves, and the exponential is spared
-    if x >= 20.0:
-        return 1.0
-    if x <= -20.0:
-        return -1.0
-    return math.tanh(x)
+    # tanh(x) by the exponential, which compilers know to have no side effects: constants stay out of the loop
+    return math.copysign(1.0 - 2.0 / (math.exp(min(2.0 * abs(x), 700.0)) + 1.0), x)

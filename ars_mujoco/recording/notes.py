@@ -36,9 +36,19 @@ def _flat(inputs: Mapping[str, Any], prefix: str = "") -> list[tuple[str, str]]:
 
 
 def _figure(value: Any) -> str:
-    """A value for the eye: five digits; a metric {"value", "unit", "reason"} with its unit, or why there is none."""
+    """A value for the eye: numbers with five digits, a metric (a mapping) with all there is to say of it."""
     if isinstance(value, Mapping):
-        if value.get("value") is None:
-            return f"none: {value.get('reason', '')}"
-        return f"{_figure(value['value'])} {value.get('unit', '')}".strip()
+        return _metric(value)
     return f"{value:.5g}" if isinstance(value, float) else str(value)
+
+
+def _metric(metric: Mapping[str, Any]) -> str:
+    """A metric {"value", "unit"}, perhaps "at_least", "note", "table"; without a value the "reason" says why."""
+    if metric.get("value") is None and not metric.get("table"):
+        return f"none: {metric.get('reason', 'not given')}"
+    unit = metric.get("unit", "").removeprefix("1")
+    figure = "" if metric.get("value") is None else f"{_figure(metric['value'])} {unit}".strip()
+    bound = ">= " if metric.get("at_least") else ""
+    note = f" ({metric['note']})" if metric.get("note") else ""
+    rows = [", ".join(f"{name} {_figure(cell)}" for name, cell in row.items()) for row in metric.get("table", ())]
+    return bound + figure + note + "".join(f"<br>{row}" for row in rows)

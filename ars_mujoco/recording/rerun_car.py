@@ -7,7 +7,7 @@ from ars_mujoco.recording.look import Look
 from ars_mujoco.recording.recording import Geom, Recording
 from ars_mujoco.recording.rerun_batch import Batch
 from ars_mujoco.recording.rerun_forces import RADIUS, BarForces, TireForces
-from ars_mujoco.recording.rerun_ground import Ground
+from ars_mujoco.recording.rerun_ground import RIG_SPACING, ROAD_SPACING, Ground
 from ars_mujoco.recording.rerun_level import level_over, log_body_bar, log_label, log_level
 from ars_mujoco.recording.rerun_solids import add_solids
 from ars_mujoco.recording.rotation import about_z, matrices, product, roll_of, yaw_of
@@ -32,7 +32,7 @@ class Car:
         self.follows = BODY in self.moving
         self.tires = TireForces(run, look)
         self.bars = {axle: bar for axle in AXLES if (bar := BarForces(run, axle)).is_known}
-        self.ground = Ground(stream, root) if not look.tint else None
+        self.ground = Ground(stream, root, ROAD_SPACING if self.follows else RIG_SPACING) if not look.tint else None
         self.level = level_over(solids[BODY]) if self.follows else None
         self.motors: dict[str, np.ndarray] = {}  # axle: place (3,) m on the body, known with the first pose
         self.started = False

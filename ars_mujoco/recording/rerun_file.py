@@ -15,7 +15,7 @@ from ars_mujoco.recording.rerun_layout import layout
 from ars_mujoco.recording.rerun_run import RerunRun
 
 APPLICATION = "ars_mujoco"
-WRITE_EVERY = 0.25  # s of wall time between two writes: the fewer, the cheaper
+WRITE_EVERY = 0.5  # s of wall time between two writes: the fewer, the cheaper
 
 
 class RerunFile:
@@ -51,7 +51,7 @@ class RerunFile:
         self.waiting, self.written = [], time.monotonic()
 
     def close(self) -> None:
-        """Write what waits, the layout and the footer; the file keeps its unfinished name. Closing twice does nothing."""
+        """Write what waits, the layout and the footer; the file keeps its unfinished name; twice is once."""
         if self.is_open:
             self.write()
             close_stream(self.stream, [self.run])

@@ -52,11 +52,10 @@ def stabilize_both(p, now, later, front_out, rear_out, time, step, front_command
             later.rear_stroke = saturate(rear_gain * (rear_command[0] - now.rear.circuit.angle), 1.0)
         front_bias, rear_bias = delayed(p.unit, later.delay, later.front_stroke, later.rear_stroke, step)
         front_gain = rear_gain = 0.0
-    front_torque = stabilize(
-        p.front, now.front, later.front, front_out, front_twist, front_command, front_gain, front_bias, step
-    )
-    rear_torque = stabilize(p.rear, now.rear, later.rear, rear_out, rear_twist, rear_command, rear_gain, rear_bias, step)
-    return front_torque, rear_torque
+    return stabilize(
+        p, now, later, front_out, rear_out, front_twist, rear_twist,
+        (front_command, front_gain, front_bias), (rear_command, rear_gain, rear_bias), step,
+    )  # fmt: skip
 
 
 @kernel

@@ -175,7 +175,7 @@ from ars_mujoco.recording.rerun_file import RerunFile
 run = s_curve(duration=3.0)
 file = RerunFile(Path({path!r}), run)
 for start in (0.0, 1.0):
-    time.sleep(0.3)
+    time.sleep(0.55)
     file.append(run.part(start, start + 1))
 time.sleep(0.5)
 print("two of three seconds", flush=True)
