@@ -42,7 +42,7 @@ def measure(simulation: Simulation, rounds: int = 40) -> Cost:
 
     def closed_loop() -> None:
         with installed(simulation.rig, model, data):
-            _timed(lambda: advance(model, data, times, values, poses, stride, out_slot, 0), closed)
+            _timed(lambda: advance(model, data, times, values, poses, stride, out_slot, 0, False), closed)
 
     def bare() -> None:
         _timed(lambda: mujoco.mj_step(model, data, ROUND), open_)

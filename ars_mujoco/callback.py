@@ -19,7 +19,7 @@ from numba.extending import intrinsic
 from ars_mujoco import mujoco_layout
 from ars_mujoco.errors import ArsError
 from ars_mujoco.kernel import interpreted, kernel
-from ars_mujoco.world import MAGIC
+from ars_mujoco.world import MAGIC, VERSION
 
 # the fields of mjData a rig reads and writes, flat float64 arrays
 Fields = namedtuple("Fields", "time qpos qvel ctrl qfrc_applied xfrc_applied mocap_pos xpos xmat site_xpos xanchor xaxis")
@@ -38,40 +38,57 @@ _NO_BOUND = 1 << 30  # the arrays below are not bounds-checked; their true lengt
 
 
 @contextlib.contextmanager
-def installed(rig, model: mujoco.MjModel, data: mujoco.MjData):
+def installed(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None):
     """Install `rig`'s callback for the length of a `with` block, and restore what was there.
 
-    `data` is used to hold the struct offsets against. Raises ArsError for an integrator that calls more than once a
-    step, and for a model that was not built for this rig.
+    `data` is used to hold the struct offsets against; `law` is a `control.law.Law` in place of the shipped controller.
+    Yields whether the callback is a Python function, which only a loop in Python may drive.
+    Raises ArsError for an integrator that calls more than once a step, and for a model not built for this rig.
     """
     if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
         raise ArsError("integrator RK4 is refused: it evaluates forces four times a step, and the hydraulics advance once")
-    if model.nuserdata * 8 != rig.WORLD.itemsize:
-        raise ArsError(f"this model was not built for the rig '{rig.NAME}': its userdata has {model.nuserdata} numbers")
+    carried = model.numeric_data[-model.nuserdata :]
+    if model.nuserdata * 8 != rig.WORLD.itemsize or tuple(carried[:2]) != (MAGIC, VERSION):
+        raise ArsError(f"this model was not built for the rig '{rig.NAME}': it carries no world of its layout {VERSION:g}")
     mujoco_layout.validate(model, data)
+    python = interpreted or law is not None and not law.is_native
+    if python:
+        function = python_callback(rig, law)
+    else:
+        function = c_function((law.callback(rig) if law else rig.CALLBACK).address)
     before = mujoco.get_mjcb_control()
-    mujoco.set_mjcb_control(python_callback(rig) if interpreted else c_function(rig.CALLBACK))
+    mujoco.set_mjcb_control(function)
     try:
-        yield
+        yield python
     finally:
         mujoco.set_mjcb_control(before)
 
 
-def c_function(compiled):
+def c_function(address: int):
     """The ctypes function of a compiled callback."""
-    return ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(compiled.address)
+    return ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(address)
 
 
-def python_callback(rig, step=None):
+def python_callback(rig, law=None):
     """The same callback from Python: for debugging, and for a controller that does not compile."""
-    step = step or rig.step
 
     def control(model, data):
         world = np.asarray(data.userdata).view(rig.WORLD).view(np.recarray)
         if world[0].header.magic != MAGIC:
             data.userdata[:] = model.numeric_data[-model.nuserdata :]
+        if not interpreted:  # only the law is in Python
+            rig.native_sense(model._address, data._address)
+            law.apply(world[0])
+            rig.native_act(model._address, data._address)
+            return
         flat = (np.asarray(getattr(data, name)).reshape(-1) for name in Fields._fields[1:])
-        step(world[0], Fields(data.time, *flat))
+        mj = Fields(data.time, *flat)
+        if law:
+            rig.sense(world[0], mj)
+            law.apply(world[0])
+            rig.act(world[0], mj)
+        else:
+            rig.step(world[0], mj)
 
     return control
 

@@ -2,6 +2,7 @@
 
 import json
 import sys
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import StrEnum
@@ -50,6 +51,7 @@ Json = Annotated[bool, typer.Option("--json", help="A machine-readable result on
 
 def main() -> None:
     """Run the command line; what a user did wrong is one line for each problem on stderr, and exit status 1."""
+    warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
     try:
         app()
     except ArsError as error:

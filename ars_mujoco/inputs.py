@@ -5,8 +5,10 @@ A cycle names its actuator, controller and vehicle; a setting reaches through th
 `--set actuator.front.pump.speed='1500 rpm'` a value in that file.
 """
 
+import hashlib
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from ars_mujoco import library
@@ -21,6 +23,7 @@ from ars_mujoco.vehicle.sedan import Sedan
 
 VEHICLES = {"bench": Bench, "roll_plane": RollPlane, "sedan": Sedan}
 LOCKED = "locked"  # the active bar with its motor held: every run is measured against it too
+CASCADE = "cascade"  # the shipped controller that a law in Python stands in
 PARTS = ("actuator", "controller", "vehicle")
 
 
@@ -59,7 +62,7 @@ def read_inputs(
     """
     overrides = [override(text) for text in settings]
     driven = read(Cycle, cycle, "cycle", [each for each in overrides if not _part(each)])
-    schemas = {"actuator": Actuator, "controller": Controller, "vehicle": VEHICLES[driven.value.rig]}
+    schemas = {"actuator": Actuator, "vehicle": VEHICLES[driven.value.rig]}
     chosen = {"actuator": actuator, "controller": controller, "vehicle": vehicle}
     parts, problems = {}, []
     for part in PARTS:
@@ -70,7 +73,10 @@ def read_inputs(
         try:
             if part == "vehicle":
                 _check_rig(name, driven.value.rig)
-            parts[part] = read(schemas[part], name, part, own, beside)
+            if part == "controller":
+                parts[part] = _read_controller(name, own, beside)
+            else:
+                parts[part] = read(schemas[part], name, part, own, beside)
         except InputError as error:
             problems += error.problems
     if problems:
@@ -101,6 +107,23 @@ def read_compared(
             for each in runs
         ]
     return runs, [read_inputs(cycle, name, controller, vehicle, others) for name in _references(runs)]
+
+
+def _read_controller(name: str, own: list[Override], beside: Path | None) -> Input:
+    """A controller's file, or a Python file with a law, which then stands in the shipped cascade.
+
+    The law of a controller's file is named from that file's folder.
+    """
+    if Path(name).suffix != ".py":
+        read_file = read(Controller, name, "controller", own, beside)
+        law = read_file.value.law and read_file.path.parent / read_file.value.law
+    else:
+        read_file = read(Controller, CASCADE, "controller", own)
+        law = (beside or Path()) / name
+        if not law.is_file():
+            raise InputError(f"no controller '{law}'; a controller is a shipped name, a YAML file or a Python file")
+        read_file = replace(read_file, name=law.stem, path=law, sha256=hashlib.sha256(law.read_bytes()).hexdigest())
+    return replace(read_file, value=read_file.value.model_copy(update={"law": law and str(law)}))
 
 
 def _references(runs: list[Inputs]) -> list[str]:

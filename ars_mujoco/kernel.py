@@ -11,7 +11,7 @@ import hashlib
 import os
 import sys
 import tempfile
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 
 import llvmlite.binding
@@ -28,32 +28,30 @@ def kernel(function):
     return numba.njit(**JIT_OPTIONS)(function)
 
 
-def entry(signature):
-    """Like `kernel`, for a function that Python calls: compiled once for `signature` and cached on disk."""
-
-    def decorate(function):
-        if interpreted:
-            return function
-        with _cache_folder():
-            return numba.njit(signature, cache=True, **JIT_OPTIONS)(function)
-
-    return decorate
+def entry(function):
+    """Like `kernel`, for a function that Python or a user's controller calls: compiled on first use, cached on disk."""
+    if interpreted:
+        return function
+    with cache_folder():
+        return numba.njit(cache=True, **JIT_OPTIONS)(function)
 
 
-def native_callback(signature):
-    """A C function pointer (numba.cfunc) compiled for `signature` and cached on disk, or None when interpreted."""
+class NativeCallback:
+    """A C function of `signature`, compiled when its address is first asked for, and cached on disk if `cached`."""
 
-    def decorate(function):
-        if interpreted:
-            return None
-        with _cache_folder():
-            return numba.cfunc(signature, cache=True, error_model="numpy")(function)
+    def __init__(self, signature, function, cached: bool = True):
+        self.signature, self.function, self.cached = signature, function, cached
 
-    return decorate
+    @cached_property
+    def address(self) -> int:
+        with cache_folder():
+            self.compiled = numba.cfunc(self.signature, cache=self.cached, error_model="numpy")(self.function)
+        return self.compiled.address
 
 
 @contextlib.contextmanager
-def _cache_folder():
+def cache_folder():
+    """Let numba cache what is decorated in a `with` block in this package's own folder."""
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(cache_path())
     try:

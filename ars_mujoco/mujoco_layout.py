@@ -19,6 +19,7 @@ DATA_FIELDS = (
     "xanchor", "xaxis",
 )  # fmt: skip
 MODEL_FIELDS = ("numeric_data",)
+MODEL_NUMBERS = ("signature", "nuserdata", "nnumericdata")
 
 _SIZES = {"char": 1, "mjtByte": 1, "mjtBool": 1, "int": 4, "float": 4, "unsigned int": 4}  # all others: 8 bytes
 
@@ -32,7 +33,7 @@ def offsets(struct: str) -> dict[str, int]:
 
 def validate(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     """Hold the offsets the callback uses against live objects; raises ArsError where MuJoCo keeps a field elsewhere."""
-    found = {("mjModel", "signature"): (_word(model, "mjModel", "signature"), model.signature)}
+    found = {("mjModel", name): (_word(model, "mjModel", name), getattr(model, name)) for name in MODEL_NUMBERS}
     for struct, live, names in (("mjData", data, DATA_FIELDS), ("mjModel", model, MODEL_FIELDS)):
         for name in names:
             array = getattr(live, name)

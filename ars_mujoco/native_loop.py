@@ -6,11 +6,11 @@ from pathlib import Path
 
 import mujoco
 import numpy as np
-from numba import carray, types
+from numba import carray
 
 from ars_mujoco import mujoco_layout
 from ars_mujoco.callback import call, doubles, word
-from ars_mujoco.kernel import entry, interpreted
+from ars_mujoco.kernel import entry
 from ars_mujoco.world import HEADER
 
 _DATA = mujoco_layout.offsets("mjData")
@@ -29,24 +29,19 @@ def _library() -> Path:
     return next(path for pattern in ("libmujoco.so*", "libmujoco*.dylib", "mujoco.dll") for path in folder.glob(pattern))
 
 
-def advance(model, data, times, values, poses, stride: int, out_slot: int, first: int) -> int:
+def advance(model, data, times, values, poses, stride: int, out_slot: int, first: int, python: bool) -> int:
     """Step `len(times)` times with the installed callback, recording the sample before each step; return steps made.
 
     times (n,) s; values (n, nchannel), the `out` block that starts at number `out_slot` of userdata; poses
     (m, nbody, 7), position and quaternion wxyz at every `stride`-th step, counted with `first` steps made before.
-    Stops early where the world's status says that something went wrong.
+    Stops early where the world's status says that something went wrong. A callback in Python needs the loop in Python.
     """
-    if interpreted:
+    if python:
         return _advance_python(model, data, times, values, poses, stride, out_slot, first)
     return _advance(_mj_step(), model._address, data._address, times, values, poses, stride, out_slot, first)
 
 
-@entry(
-    types.int64(
-        types.intp, types.intp, types.intp, types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1],
-        types.int64, types.int64, types.int64,
-    )
-)  # fmt: skip
+@entry
 def _advance(mj_step, model, data, times, values, poses, stride, out_slot, first):
     userdata = carray(doubles(word(data + _USERDATA)), (1 << 30,))
     xpos, xquat = carray(doubles(word(data + _XPOS)), (1 << 30,)), carray(doubles(word(data + _XQUAT)), (1 << 30,))

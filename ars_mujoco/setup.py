@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 from importlib import import_module
+from pathlib import Path
 from types import ModuleType
 
 import mujoco
@@ -11,6 +12,7 @@ from ars_mujoco.actuators.actuator import Actuator, PumpControlled, fill_axle
 from ars_mujoco.callback import installed
 from ars_mujoco.control.control_unit import check_timing
 from ars_mujoco.control.controller import Controller
+from ars_mujoco.control.law import Law, law
 from ars_mujoco.cycle import BarCommand, Circle, Cycle, Follow, LateralForce, StepSteer, Straight
 from ars_mujoco.driver import Driver
 from ars_mujoco.errors import InputError
@@ -37,6 +39,7 @@ class Simulation:
     model: mujoco.MjModel
     duration: float  # s
     title: str
+    law: Law | None = None  # a user's controller in place of the shipped one
     inputs: dict = field(default_factory=dict)
 
     def start(self) -> mujoco.MjData:
@@ -59,22 +62,25 @@ def prepare(cycle: Cycle, actuator: Actuator, controller: Controller, vehicle: B
     parameters = world[0].parameters
     fill(parameters.stabilizers.loop, controller.loop)
     fill(parameters.stabilizers.unit, controller.unit)
+    own = law(Path(controller.law)) if controller.law else None
     match vehicle:
         case Bench():
+            if own:
+                raise InputError("controller.law: the bench's cycle commands the bar itself; allowed on sedan and roll_plane")
             _bench(parameters, cycle.manoeuvre, actuator, vehicle, step)
-            return _simulation(rig, spec, world, cycle)
+            return _simulation(rig, spec, world, cycle, own)
         case RollPlane():
-            return _roll_plane(rig, spec, world, cycle, actuator, controller, vehicle)
+            return _roll_plane(rig, spec, world, cycle, actuator, controller, vehicle, own)
         case Sedan():
-            return _sedan(rig, spec, world, cycle, actuator, controller, vehicle)
+            return _sedan(rig, spec, world, cycle, actuator, controller, vehicle, own)
 
 
-def _simulation(rig, spec, world, cycle) -> Simulation:
+def _simulation(rig, spec, world, cycle, own) -> Simulation:
     """Compile the spec with the world as userdata and as its last custom numeric."""
     numbers = world.view(np.float64).reshape(-1)
     spec.nuserdata = numbers.size
     spec.add_numeric(name=NUMERIC, size=numbers.size, data=numbers)
-    return Simulation(rig, spec.compile(), cycle.duration, cycle.title)
+    return Simulation(rig, spec.compile(), cycle.duration, cycle.title, own)
 
 
 def _store(simulation: Simulation, world) -> None:
@@ -93,8 +99,8 @@ def _bench(parameters, manoeuvre: BarCommand, actuator, vehicle: Bench, step: fl
         raise InputError(f"manoeuvre.ends: the ends move by the arm's length or more; allowed: less than {vehicle.arm:g} m")
 
 
-def _roll_plane(rig, spec, world, cycle, actuator, controller, vehicle: RollPlane) -> Simulation:
-    simulation = _simulation(rig, spec, world, cycle)
+def _roll_plane(rig, spec, world, cycle, actuator, controller, vehicle: RollPlane, own) -> Simulation:
+    simulation = _simulation(rig, spec, world, cycle, own)
     parameters, manoeuvre = world[0].parameters, cycle.manoeuvre
     assert isinstance(manoeuvre, LateralForce)
     _fill(parameters.at, rig.addresses(simulation.model))
@@ -105,8 +111,8 @@ def _roll_plane(rig, spec, world, cycle, actuator, controller, vehicle: RollPlan
     return simulation
 
 
-def _sedan(rig, spec, world, cycle, actuator, controller, vehicle: Sedan) -> Simulation:
-    simulation = _simulation(rig, spec, world, cycle)
+def _sedan(rig, spec, world, cycle, actuator, controller, vehicle: Sedan, own) -> Simulation:
+    simulation = _simulation(rig, spec, world, cycle, own)
     parameters, model = world[0].parameters, simulation.model
     _fill(parameters.at, rig.addresses(model))
     _stabilizers(parameters, actuator, vehicle.front.bar, vehicle.rear.bar, spec.option.timestep)

@@ -27,10 +27,10 @@ def simulate(simulation: Simulation, on_chunk: Callable[[Recording], None] | Non
     empty = empty_recording(simulation)
     steps, per_chunk = round(simulation.duration / model.opt.timestep), round(CHUNK / model.opt.timestep)
     chunks = []
-    with installed(simulation.rig, model, data):
+    with installed(simulation.rig, model, data, simulation.law) as python:
         for first in range(0, steps + 1, per_chunk):
             count = min(per_chunk, steps + 1 - first)
-            chunks.append(_chunk(simulation, data, empty, first, count, last=first + count > steps))
+            chunks.append(_chunk(simulation, data, empty, first, count, first + count > steps, python))
             if on_chunk:
                 on_chunk(chunks[-1])
             _check(simulation, data, chunks[-1])
@@ -49,13 +49,13 @@ def empty_recording(simulation: Simulation) -> Recording:
     )
 
 
-def _chunk(simulation: Simulation, data: mujoco.MjData, empty: Recording, first: int, count: int, last: bool) -> Recording:
+def _chunk(simulation, data: mujoco.MjData, empty: Recording, first: int, count: int, last: bool, python: bool):
     """The samples of `count` steps from step `first` on; the last sample of a run is taken without stepping on."""
     model, stride = simulation.model, round(FRAME / simulation.model.opt.timestep)
     out_slot = simulation.rig.WORLD.fields["out"][1] // 8
     times, values = np.empty(count), np.empty((count, len(empty.channels)))
     poses = np.empty(((first + count - 1) // stride - (first - 1) // stride, model.nbody, 7))
-    stepped = advance(model, data, times[: count - last], values, poses, stride, out_slot, first)
+    stepped = advance(model, data, times[: count - last], values, poses, stride, out_slot, first, python)
     if last and stepped == count - 1:
         mujoco.mj_forward(model, data)
         times[-1], values[-1] = data.time, data.userdata[out_slot : out_slot + values.shape[1]]

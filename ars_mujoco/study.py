@@ -75,7 +75,12 @@ class _Simulated:
             progress(name, chunk.time[-1] / duration)
 
         start = time.perf_counter()
-        self.recording = simulate(simulation, show)
+        try:
+            self.recording = simulate(simulation, show)
+        except BaseException:
+            if self.folder:
+                self.folder.close()
+            raise
         self.wall_time = time.perf_counter() - start
 
     def finish(self, others: dict[str, Recording]) -> Result:

@@ -58,7 +58,7 @@ def new_world(dtype: np.dtype, step: float):
 def begin(world, time: float) -> None:
     """Bring the world to `time` (s): one step later than the last call, the same time again, or the start."""
     header = world.header
-    if header.started == 0.0 or time == 0.0 and header.time != 0.0:
+    if header.started == 0.0:
         header.started, header.time = 1.0, time
         return
     moved = time - header.time

@@ -2,6 +2,7 @@
 
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.saturation import saturate
 
 
 class SwashPlateLoop(Parameters):
@@ -12,5 +13,5 @@ class SwashPlateLoop(Parameters):
 
 @kernel
 def valve_command(loop, plate, command: float, stroke: float) -> float:
-    """Commanded spool stroke, a fraction, for a commanded and an actual pump stroke."""
-    return loop.gain / plate.max_rate * (command - stroke)
+    """Commanded spool stroke, a fraction within +-1, for a commanded and an actual pump stroke."""
+    return saturate(loop.gain / plate.max_rate * (command - stroke), 1.0)

@@ -5,6 +5,7 @@ A file carries its final name only when it is whole: it is written under another
 
 import os
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from ars_mujoco.recording.parquet_file import write_parquet
@@ -18,6 +19,7 @@ RRD, PARQUET, SUMMARY = "run.rrd", "run.parquet", "summary.json"
 class RunFolder:
     """The folder `path`, made where it is missing, for a run that begins; what an earlier run left in it is removed.
 
+    The Rerun file is written in a thread of its own, while the simulation, which needs no interpreter, goes on.
     As a context it closes the Rerun file where the run fails: `run.rrd.part` then holds all up to the failure.
     """
 
@@ -26,7 +28,9 @@ class RunFolder:
         self.path.mkdir(parents=True, exist_ok=True)
         for name in (RRD, PARQUET, SUMMARY):
             (self.path / name).unlink(missing_ok=True)
-        self.rerun = RerunFile(self.path / RRD, run)
+        self._thread = ThreadPoolExecutor(1, thread_name_prefix="rerun")
+        self._rerun = self._thread.submit(RerunFile, self.path / RRD, run)
+        self._tasks = [self._rerun]
 
     def __enter__(self) -> "RunFolder":
         return self
@@ -36,18 +40,28 @@ class RunFolder:
 
     def append(self, chunk: Recording) -> None:
         """Show the next seconds of the run."""
-        self.rerun.append(chunk)
+        self._do(lambda rerun: rerun.append(chunk))
 
     def close(self) -> None:
         """End a run that has failed: what was shown so far stays, under the unfinished name."""
-        self.rerun.close()
+        self._do(lambda rerun: rerun.close())
+        self._wait()
 
     def finish(self, run: Recording) -> None:
         """Write what the whole `run` leaves, metrics included; the summary comes last and says that all is there."""
-        self.rerun.write()  # Rerun's thread writes while this one makes the table
+        self._do(lambda rerun: rerun.finish(run))
         write_whole(self.path / PARQUET, lambda part: write_parquet(part, run))
-        self.rerun.finish(run)
+        self._wait()
         write_whole(self.path / SUMMARY, lambda part: write_summary(part, run))
+
+    def _do(self, task: Callable[[RerunFile], None]) -> None:
+        """Let the thread do `task` with the Rerun file, after all it was given before."""
+        self._tasks.append(self._thread.submit(lambda: task(self._rerun.result())))
+
+    def _wait(self) -> None:
+        """Until the thread has done all; raises what went wrong there."""
+        while self._tasks:
+            self._tasks.pop(0).result()
 
 
 def write_whole(path: Path, write: Callable[[Path], None]) -> None:

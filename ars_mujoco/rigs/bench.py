@@ -7,7 +7,7 @@ import numpy as np
 from ars_mujoco.actuators.axle import AxleOutput
 from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
-from ars_mujoco.kernel import kernel, native_callback
+from ars_mujoco.kernel import NativeCallback, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import stabilizers
 from ars_mujoco.rigs.stabilizers import stabilize_both
@@ -68,9 +68,11 @@ def parabola(signal, time: float, step: float):
     return first, (4.0 * middle - 3.0 * first - last) / step, 2.0 * (first - 2.0 * middle + last) / (step * step)
 
 
-_world = record_at(WORLD)
+world_at = record_at(WORLD)
 
 
-@native_callback(SIGNATURE)
-def CALLBACK(model, data):  # noqa: N802
-    step(_world(world_address(model, data)), fields(data))
+def _control(model, data):
+    step(world_at(world_address(model, data)), fields(data))
+
+
+CALLBACK = NativeCallback(SIGNATURE, _control)

@@ -5,13 +5,11 @@ import numpy as np
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.accelerometer import Accelerometer, AccelerometerState, low_pass, specific_force
 from ars_mujoco.control.control_unit import samples_now
+from ars_mujoco.control.law import MEMORY, SENSORS
 from ars_mujoco.control.reference_map import REFERENCE_MAP, bar_angles
 from ars_mujoco.control.roll_trim import RollTrim, trim
-from ars_mujoco.control.sensors import Sensors
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, record_dtype
-
-MEMORY = 32  # numbers a controller may keep from sample to sample
 
 PARAMETERS = np.dtype(
     [
@@ -29,7 +27,6 @@ STATE = np.dtype(
         ("rear", "f8"),
     ]
 )
-SENSORS = record_dtype(Sensors)
 
 
 class SensorOutput(Parameters):

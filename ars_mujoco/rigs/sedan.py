@@ -14,7 +14,7 @@ from ars_mujoco.actuators.axle import AxleOutput
 from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
 from ars_mujoco.driver import Driver, DriverOutput, DriverState, drive, preview
-from ars_mujoco.kernel import kernel, native_callback
+from ars_mujoco.kernel import NativeCallback, entry, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import reference, stabilizers
 from ars_mujoco.rigs.reference import SensorOutput, own_reference, read_accelerometer
@@ -271,9 +271,23 @@ def _corner(p, settings, now, later, out, mj, rates, i, h):
     return fx + fy + fz
 
 
-_world = record_at(WORLD)
+world_at = record_at(WORLD)
 
 
-@native_callback(SIGNATURE)
-def CALLBACK(model, data):  # noqa: N802
-    step(_world(world_address(model, data)), fields(data))
+def _control(model, data):
+    step(world_at(world_address(model, data)), fields(data))
+
+
+@entry
+def native_sense(model: int, data: int) -> None:
+    """`sense` for mjModel and mjData at these addresses."""
+    sense(world_at(world_address(model, data)), fields(data))
+
+
+@entry
+def native_act(model: int, data: int) -> None:
+    """`act` for mjModel and mjData at these addresses."""
+    act(world_at(world_address(model, data)), fields(data))
+
+
+CALLBACK = NativeCallback(SIGNATURE, _control)

@@ -1,0 +1,90 @@
+"""Law: a user's own controller, one Python function in a file, in place of the target map.
+
+    def command(sensors, memory):
+        return front_angle, rear_angle      # rad, commanded angles of the bars
+
+`sensors` has the fields of `control.sensors.Sensors`; `memory` holds 32 numbers that stay from sample to sample and begin
+at zero. The function is called once a sample of the control unit. Where numba can compile it, it runs natively.
+"""
+
+import importlib.util
+import warnings
+from functools import cache
+from pathlib import Path
+
+import numba
+
+from ars_mujoco.callback import SIGNATURE, world_address
+from ars_mujoco.control.control_unit import samples_now
+from ars_mujoco.control.sensors import Sensors
+from ars_mujoco.errors import InputError
+from ars_mujoco.kernel import JIT_OPTIONS, NativeCallback, interpreted
+from ars_mujoco.parameters import record_dtype
+
+FUNCTION = "command"
+MEMORY = 32  # numbers a law may keep from sample to sample
+SENSORS = record_dtype(Sensors)
+
+_ARGUMENTS = (numba.from_dtype(SENSORS), numba.types.Array(numba.float64, 1, "C"))
+
+
+class Law:
+    """A user's function, from the file `path`; `is_native` where numba compiles it."""
+
+    def __init__(self, path: Path):
+        self.path, self.function = path, _load(path)
+        self.is_native = not interpreted and self._compiles()
+
+    def _compiles(self) -> bool:
+        try:
+            numba.njit(_ARGUMENTS, **JIT_OPTIONS)(self.function)
+        except numba.core.errors.NumbaError as error:
+            reason = str(error).splitlines()[1]  # the first line names the compiler's stage
+            warnings.warn(
+                f"{self.path}: {FUNCTION}() does not compile, so it runs in Python and every step takes several times as"
+                f" long: {reason}",
+                stacklevel=2,
+            )
+            return False
+        return True
+
+    def callback(self, rig) -> NativeCallback:
+        """The callback of `rig` with this law in it; only the law is compiled anew."""
+        sense, act, world_at = rig.native_sense, rig.native_act, rig.world_at
+        command = numba.njit(**JIT_OPTIONS)(self.function)
+
+        def control(model, data):
+            sense(model, data)
+            world = world_at(world_address(model, data))
+            parameters, reference, sensors = world.parameters, world.later.reference, world.scratch.sensors
+            if samples_now(parameters.stabilizers.unit, sensors.time, world.header.step):
+                front, rear = command(sensors, reference.memory)
+                reference.front, reference.rear = front, rear
+            act(model, data)
+
+        return NativeCallback(SIGNATURE, control, cached=False)
+
+    def apply(self, world) -> None:
+        """The same from Python."""
+        reference, sensors = world.later.reference, world.scratch.sensors
+        if samples_now(world.parameters.stabilizers.unit, sensors.time, world.header.step):
+            reference.front, reference.rear = self.function(sensors, reference.memory)
+
+
+@cache
+def law(path: Path) -> Law:
+    """The Law of a file, made once a process. Raises InputError where the file holds none."""
+    return Law(path)
+
+
+def _load(path: Path):
+    spec = importlib.util.spec_from_file_location(f"law_{path.stem}", path)
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:  # whatever a user's file raises
+        raise InputError(f"{path}: {type(error).__name__}: {error}") from None
+    function = getattr(module, FUNCTION, None)
+    if not callable(function):
+        raise InputError(f"{path}: has no function {FUNCTION}(sensors, memory)")
+    return function

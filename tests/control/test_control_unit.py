@@ -1,0 +1,89 @@
+"""The control unit: delays exact to the step, values held from sample to sample, and timings that it refuses."""
+
+import mujoco
+import numpy as np
+import pytest
+from bench import bench, drive
+from records import filled
+
+from ars_mujoco.callback import installed
+from ars_mujoco.control.control_unit import DELAY_LINE, SLOTS, ControlUnit, check_timing, delayed, samples_now
+from ars_mujoco.errors import InputError
+from ars_mujoco.world import view
+
+STEP = 1e-3
+
+
+def unit(sample_time="0 s", delay="0 s"):
+    return ControlUnit(sample_time=sample_time, delay=delay)
+
+
+@pytest.mark.parametrize("steps", [0, 1, 10, SLOTS - 1])
+def test_an_output_leaves_the_delay_line_exactly_its_delay_later(steps):
+    record, line = filled(unit(delay=f"{steps} ms")), np.zeros(1, DELAY_LINE).view(np.recarray)[0]
+    pushed = np.arange(1.0, 201.0)
+    left = np.array([delayed(record, line, value, -2.0 * value, STEP) for value in pushed])
+    assert np.array_equal(left[steps:, 0], pushed[: 200 - steps])
+    assert np.array_equal(left[:, 1], -2.0 * left[:, 0])
+    assert not np.any(left[:steps])
+
+
+def sample_steps(sample_time, first=0, count=20):
+    """The steps in which a unit samples, at the times as MuJoCo adds them up."""
+    record, times = filled(unit(sample_time)), np.cumsum(np.full(first + count, STEP)) - STEP
+    return [i for i in range(first, first + count) if samples_now(record, times[i], STEP)]
+
+
+def test_a_unit_samples_at_multiples_of_its_sample_time():
+    assert sample_steps("5 ms") == [0, 5, 10, 15]
+    assert sample_steps("5 ms", first=100_000) == [100_000, 100_005, 100_010, 100_015]
+
+
+@pytest.mark.parametrize("sample_time", ["0 s", "1 ms"])
+def test_a_continuous_unit_and_one_as_fast_as_the_step_compute_always(sample_time):
+    assert sample_steps(sample_time) == list(range(20))
+
+
+def test_a_late_command_gives_the_same_run_exactly_the_delay_later():
+    prompt, late = drive("bench_step_1deg"), drive("bench_step_1deg", "controller.unit.delay=7 ms")
+    for name in ("front.bar.angle", "front.motor.pressure", "front.pump.stroke"):
+        assert late[name][7:] == pytest.approx(prompt[name][:-7], rel=1e-9)
+        assert not np.any(late[name][:8])
+
+
+@pytest.mark.parametrize("delay", [0, 1, 7])
+def test_a_sampling_units_stroke_command_comes_the_delay_later(delay):
+    late = drive("bench_step_1deg", "controller.unit.sample_time=2 ms", f"controller.unit.delay={delay} ms")
+    assert np.flatnonzero(late["front.pump.stroke"])[0] == delay + 1
+
+
+def test_a_sampling_unit_holds_its_stroke_command_between_samples():
+    simulation = bench("bench_step_1deg", "controller.unit.sample_time=5 ms")
+    data, strokes, angles = simulation.start(), [], []
+    with installed(simulation.rig, simulation.model, data):
+        for _ in range(100):
+            mujoco.mj_step(simulation.model, data)
+            world = view(data, simulation.rig.WORLD)
+            strokes.append(float(world.later.stabilizers.front_stroke))
+            angles.append(float(world.now.stabilizers.front.circuit.angle))
+    wanted = np.clip(60.0 * (np.radians(1.0) - np.array(angles)), -1, 1)
+    assert strokes == pytest.approx(np.repeat(wanted[::5], 5), abs=1e-12)
+    assert len(set(strokes)) > 10
+
+
+@pytest.mark.parametrize("timing", [{"sample_time": "2 ms", "delay": "10 ms"}, {"delay": f"{SLOTS - 1} ms"}, {}])
+def test_whole_steps_are_accepted(timing):
+    check_timing(unit(**timing), STEP)
+
+
+@pytest.mark.parametrize(
+    ("timing", "message"),
+    [
+        ({"sample_time": "1.5 ms"}, "unit.sample_time: 0.0015 s is not a whole multiple of the time step 0.001 s"),
+        ({"delay": "0.2 ms"}, "unit.delay: 0.0002 s is not a whole multiple of the time step 0.001 s"),
+        ({"delay": f"{SLOTS} ms"}, "unit.delay: 0.064 s is too long; allowed: less than 0.064 s"),
+    ],
+)
+def test_other_times_are_refused(timing, message):
+    with pytest.raises(InputError, match=message.replace(".", r"\.")):
+        check_timing(unit(**timing), STEP)

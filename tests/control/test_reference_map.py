@@ -1,0 +1,51 @@
+"""The reference map: odd, linear between its knots, held beyond the last."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ars_mujoco.control.reference_map import KNOTS, REFERENCE_MAP, bar_angles
+
+SENSOR = [0.0, 3.0, 6.5, 9.0]
+COLUMNS = {"front": [0.0, 0.08, 0.12, 0.10], "rear": [0.0, 0.06, 0.09, 0.095], "roll": [0.0, 0.0, 0.005, 0.023]}
+
+
+def table(sensor, **columns):
+    record = np.zeros(1, REFERENCE_MAP).view(np.recarray)[0]
+    record.count = len(sensor)
+    record.sensor[: len(sensor)] = sensor
+    for name, column in columns.items():
+        record[name][: len(column)] = column
+    return record
+
+
+MAP = table(SENSOR, **COLUMNS)
+
+
+@given(reading=st.floats(0.0, 30.0))
+def test_it_is_linear_between_its_knots_and_held_beyond(reading):
+    expected = [np.interp(reading, SENSOR, COLUMNS[name]) for name in ("front", "rear", "roll")]
+    assert bar_angles(MAP, reading) == pytest.approx(expected, abs=1e-15)
+
+
+@given(reading=st.floats(0.0, 30.0))
+def test_it_is_odd(reading):
+    assert bar_angles(MAP, -reading) == tuple(-angle for angle in bar_angles(MAP, reading))
+
+
+@pytest.mark.parametrize("knot", range(4))
+def test_a_knot_gives_its_own_angles(knot):
+    front, rear, roll = bar_angles(MAP, SENSOR[knot])
+    assert (front, rear, roll) == pytest.approx([COLUMNS[name][knot] for name in ("front", "rear", "roll")], abs=1e-15)
+
+
+def test_a_full_table_is_used_to_its_end():
+    sensor = np.linspace(0.0, 10.0, KNOTS)
+    full = table(sensor, front=0.01 * sensor)
+    assert bar_angles(full, 9.9)[0] == pytest.approx(0.099)
+    assert bar_angles(full, 20.0)[0] == pytest.approx(0.1)
+
+
+def test_without_a_table_the_bars_stay_in_the_middle():
+    assert bar_angles(table([]), 5.0) == (0.0, 0.0, 0.0)

@@ -1,0 +1,157 @@
+"""The reduced circuit as a whole: closed forms of its parts at work together, and its energy at every instant."""
+
+import math
+
+import numpy as np
+import pytest
+from bench import AT_REST, STIFFNESS, circuit, linearized
+from hypothesis import given
+from hypothesis import strategies as st
+from records import blank
+
+from ars_mujoco.hydraulics.line import capacitance
+from ars_mujoco.hydraulics.reduced_circuit import CircuitEnergy, CircuitState, advance, rates, stored_energy
+from ars_mujoco.hydraulics.vane_motor import stop_torque
+
+BAR = 1e5
+SHIPPED = circuit()
+
+
+def state(**values):
+    record = blank(CircuitState)
+    for name, value in values.items():
+        record[name] = value
+    return record
+
+
+def run(parameters, start, seconds, stroke=0.0, twist=0.0):
+    """State and energies after `seconds`, the pump told to hold a stroke."""
+    end, energy = start.copy(), blank(CircuitEnergy)
+    count = round(seconds / 5e-5)
+    advance(parameters, STIFFNESS, end, end, energy, energy, (0.0, 0.0, 0.0), 0.0, stroke, twist, seconds, count)
+    return end, energy
+
+
+def blocked():
+    """The circuit with a motor that does not move."""
+    parameters = circuit()
+    parameters.motor.inertia = 1e12
+    return parameters
+
+
+def test_oil_pumped_into_a_trapped_volume_raises_its_pressure_by_volume_over_capacitance():
+    parameters = blocked()
+    parameters.pump.leakage = parameters.motor.leakage = 0.0
+    end, _ = run(parameters, state(stroke=0.1), 0.01, stroke=0.1)
+    assert end.pressure == pytest.approx(0.1 * 9e-5 * 0.01 / 6e-14, rel=1e-9)
+
+
+def test_a_motor_turned_by_hand_compresses_the_oil():
+    (_, _, _, pressure_rate, _, _), _ = rates(SHIPPED, STIFFNESS, (0.0, 0.0, 0.0, 0.0, 0.0, 0.1), 0.0, 0.0)
+    assert pressure_rate == pytest.approx(-5.24e-4 / (2 * math.pi) * 0.1 / 6e-14)
+
+
+def test_trapped_pressure_leaks_away_exponentially_into_the_two_leakages():
+    end, energy = run(blocked(), state(pressure=100 * BAR), 0.05)
+    assert end.pressure == pytest.approx(100 * BAR * math.exp(-4e-13 / 6e-14 * 0.05), rel=1e-9)
+    lost = 0.5 * 6e-14 * ((100 * BAR) ** 2 - end.pressure**2)
+    assert energy.pump_leakage == pytest.approx(0.5625 * lost, rel=1e-9)
+    assert energy.motor_leakage == pytest.approx(0.4375 * lost, rel=1e-9)
+
+
+def test_a_full_pump_against_a_blocked_motor_rests_on_the_relief_valve():
+    end, _ = run(blocked(), state(), 0.1, stroke=1.0)
+    flow = 9e-5 - 4e-13 * end.pressure
+    assert end.pressure == pytest.approx(190 * BAR + flow / 8.33e-11, rel=1e-6)
+
+
+def test_a_motor_pushed_beyond_its_angle_rests_between_oil_bar_and_stop():
+    twist = math.radians(44.0)
+    end, energy = run(SHIPPED, state(angle=twist), 2.0, stroke=1.0, twist=twist)
+    assert end.angle > SHIPPED.motor.stop_angle
+    bar, stop = STIFFNESS * (end.angle - twist), stop_torque(SHIPPED.motor, end.angle)
+    assert SHIPPED.motor.displacement * end.pressure == pytest.approx(bar + stop, rel=1e-6)
+
+
+def test_a_lossless_motor_bounces_off_its_stop_as_fast_as_it_came():
+    parameters = circuit()
+    parameters.motor.coulomb_friction = parameters.motor.viscous_friction = 0.0
+    parameters.pump.leakage = parameters.motor.leakage = 0.0
+    parameters.line.capacitance = 1.0  # so soft that no pressure builds up
+    angle = SHIPPED.motor.stop_angle
+    half = math.pi * math.sqrt(0.175 / (2e5 + STIFFNESS))
+    end, _ = run(parameters, state(angle=angle, rate=0.2), half, twist=angle)
+    assert end.rate == pytest.approx(-0.2, rel=1e-6)
+    assert end.angle == pytest.approx(angle, abs=1e-6)
+
+
+def test_without_dry_friction_oil_and_motor_ring_at_834_rad_s():
+    parameters = circuit()
+    parameters.motor.coulomb_friction = 0.0
+    poles = np.linalg.eigvals(linearized(parameters)[0])
+    assert np.abs(poles).max() == pytest.approx(834, rel=2e-3)
+
+
+def test_dry_friction_holds_the_motor_like_3516_nms_per_rad_at_standstill():
+    poles = np.linalg.eigvals(linearized(SHIPPED)[0])
+    assert poles.real.min() == pytest.approx(-20060, rel=1e-3)
+
+
+@given(
+    st.tuples(st.floats(-1, 1), st.floats(-100, 100), st.floats(-1.2, 1.2), st.floats(-250, 250), st.floats(-1, 1),
+              st.floats(-2, 2), st.floats(-0.5, 0.5))
+)  # fmt: skip
+def test_what_the_shaft_gives_is_stored_or_lost_at_every_instant(drawn):
+    *now, twist = drawn
+    now[3] *= BAR
+    derivatives, powers = rates(SHIPPED, STIFFNESS, tuple(now), 0.3, twist)
+    shaft, loss, squared_pressure, relief, friction, compliance, _, _ = powers
+    lost = loss + 4e-13 * squared_pressure + relief + friction + compliance
+    h = 1e-7
+    ahead, behind = (
+        np.array(stored_energy(SHIPPED, STIFFNESS, state(**along(now, derivatives, s)), twist)) for s in (h, -h)
+    )
+    gained = (ahead - behind) / (2 * h)
+    assert gained.sum() == pytest.approx(shaft - lost, abs=1e-4 * (np.abs(gained).sum() + abs(shaft) + 1.0))
+
+
+def along(now, derivatives, step):
+    return dict(zip(CircuitState.model_fields, np.add(now, np.multiply(step, derivatives)), strict=True))
+
+
+def test_every_loss_but_the_capacitances_costs_at_any_state():
+    random = np.random.default_rng(1)
+    for now in random.uniform(-1, 1, (500, 6)) * [1, 100, 1.2, 250 * BAR, 0.7, 2]:
+        _, (_, loss, squared_pressure, relief, friction, _, _, _) = rates(SHIPPED, STIFFNESS, tuple(now), 0.0, 0.0)
+        assert min(loss, squared_pressure, relief, friction) >= 0.0
+
+
+def test_advancing_leaves_the_state_it_starts_from():
+    start, end, energy = state(angle=0.1), state(), blank(CircuitEnergy)
+    advance(SHIPPED, STIFFNESS, start, end, energy, energy, (0.0, 0.0, 0.0), 60.0, 0.0, 0.0, 1e-3, 8)
+    assert start == state(angle=0.1)
+    assert end != start
+
+
+def test_the_returned_torque_is_the_mean_over_the_step():
+    start, end, energy = state(rate=0.5), state(), blank(CircuitEnergy)
+    h = 1e-3
+    mean = advance(SHIPPED, STIFFNESS, start, end, energy, energy, (0.0, 0.0, 0.0), 60.0, 0.0, 0.02, h, 64)
+    parts = [start]
+    for _ in range(64):
+        parts.append(state())
+        advance(SHIPPED, STIFFNESS, *parts[-2:], energy, energy, (0.0, 0.0, 0.0), 60.0, 0.0, 0.02, h / 64, 1)
+    torques = STIFFNESS * (np.array([each.angle for each in parts]) - 0.02)
+    assert mean == pytest.approx(np.trapezoid(torques) / 64, rel=1e-6)
+
+
+def test_the_pressure_follows_the_capacitance_of_the_turned_motor():
+    for angle in (0.0, 0.3, -0.6):
+        now = (0.0, 0.0, 0.5, 0.0, angle, 0.0)
+        (_, _, _, pressure_rate, _, _), _ = rates(SHIPPED, STIFFNESS, now, 0.0, 0.0)
+        assert pressure_rate == pytest.approx(0.5 * 9e-5 / capacitance(SHIPPED.line, SHIPPED.motor, angle))
+
+
+def test_at_rest_nothing_moves():
+    derivatives, _ = rates(SHIPPED, STIFFNESS, AT_REST, 0.0, 0.0)
+    assert not np.any(derivatives)

@@ -1,0 +1,97 @@
+"""The Runge-Kutta substep: its observed order where nothing saturates, and stability of the substeps it is given."""
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import pytest
+from bench import AT_REST, STIFFNESS, circuit, linearized
+from radau import ATOL, State, VerificationSet, derivative, powers
+from records import blank
+from scipy.integrate import solve_ivp
+
+from ars_mujoco.hydraulics.reduced_circuit import CircuitEnergy, CircuitState, advance, substeps
+
+GAIN = 60.0  # 1/rad
+COMMAND = (2e-3, 0.04, -0.3)  # rad, rad/s, rad/s^2: at no time over 0.25 deg, where no limit is met
+DURATION = 0.06  # s
+COUNTS = (60, 120, 240, 480)
+ENERGIES = ("shaft", "motor", "friction", "capacitance", "pump_leakage")
+
+
+@pytest.fixture(scope="module")
+def exact():
+    """States and energies at the end, by an explicit method of order eight on the reference's equations."""
+    smooth = replace(VerificationSet(), r_C=0.0)
+
+    def rate(t, s):
+        c0, c1, c2 = COMMAND
+        power = powers(smooth, State(*s[:6]))
+        return [*derivative(smooth, s[:6].tolist(), c0 + t * (c1 + t * c2)), *(power[name] for name in ENERGIES)]
+
+    start, tolerance = np.zeros(6 + len(ENERGIES)), np.concatenate([1e-4 * ATOL, np.full(len(ENERGIES), 1e-13)])
+    end = solve_ivp(rate, (0.0, DURATION), start, "DOP853", rtol=1e-13, atol=tolerance).y[:, -1]
+    return dict(zip([*CircuitState.model_fields, *ENERGIES], end, strict=True))
+
+
+@pytest.fixture(scope="module")
+def runs():
+    """States and energies at the end for each of COUNTS."""
+    parameters, found = circuit(), []
+    parameters.motor.coulomb_friction = 0.0
+    for count in COUNTS:
+        state, energy = blank(CircuitState), blank(CircuitEnergy)
+        advance(parameters, STIFFNESS, state, state, energy, energy, COMMAND, GAIN, 0.0, 0.0, DURATION, count)
+        found.append({**{n: state[n] for n in CircuitState.model_fields}, **{n: energy[n] for n in ENERGIES}})
+    return found
+
+
+@pytest.mark.parametrize("name", [*CircuitState.model_fields, *ENERGIES])
+def test_states_and_energies_converge_with_order_four(runs, exact, name):
+    errors = [abs(run[name] - exact[name]) for run in runs]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    print(name, orders, errors[-1] / abs(exact[name]))
+    assert orders[-1] == pytest.approx(4.0, abs=0.1)
+
+
+def corners():
+    """Circuits at the corners of the paper's Table 2, with and without dry friction."""
+    box = product((4e-14, 8e-14), (0.1, 0.25), (6.5, 26.5), (4e-13, 2e-12), (1500, 6000), (0.0, 35.0))
+    for oil, inertia, viscous, leakage, rpm, dry in box:
+        parameters = circuit()
+        parameters.line.capacitance, parameters.motor.inertia = oil, inertia
+        parameters.motor.viscous_friction, parameters.motor.coulomb_friction = viscous, dry
+        parameters.pump.leakage, parameters.motor.leakage = 0.5625 * leakage, 0.4375 * leakage
+        parameters.pump.speed = rpm * 2 * np.pi / 60
+        yield parameters
+
+
+STATES = {
+    "at rest": AT_REST,
+    "in motion": (0.0, 0.0, 0.0, 0.0, 0.0, 0.5),
+    "relieving": (0.0, 0.0, 0.0, 200e5, 0.0, 0.0),
+    "at the stop": (0.0, 0.0, 0.0, 0.0, 0.8, 0.0),
+}
+
+
+@pytest.mark.parametrize("where", STATES)
+@pytest.mark.parametrize("step", [5e-4, 1e-3, 2e-3])
+def test_every_stable_eigenvalue_stays_stable_in_the_chosen_substeps(where, step):
+    growth = 0.0
+    for parameters in corners():
+        z = np.linalg.eigvals(linearized(parameters, GAIN, STATES[where])[0]) * step
+        z = z[z.real <= 0] / substeps(parameters, STIFFNESS, GAIN, step)
+        growth = max(growth, np.abs(1 + z * (1 + z / 2 * (1 + z / 3 * (1 + z / 4)))).max())
+    print(where, step, growth)
+    assert growth < 1.0 + 1e-9
+
+
+def test_a_nominal_step_of_1_ms_takes_8_substeps():
+    assert substeps(circuit(), STIFFNESS, GAIN, 1e-3) == 8
+
+
+def test_half_the_substeps_of_the_stiffest_corner_would_not_be_stable():
+    parameters = circuit()
+    parameters.motor.inertia = 0.1
+    z = np.linalg.eigvals(linearized(parameters, GAIN)[0]) * 1e-3 / (substeps(parameters, STIFFNESS, GAIN, 1e-3) / 2)
+    assert np.abs(1 + z * (1 + z / 2 * (1 + z / 3 * (1 + z / 4)))).max() > 1.0

@@ -1,0 +1,25 @@
+"""The benchmark, and what a closed-loop step may cost."""
+
+import mujoco
+import pytest
+import shipped
+
+from ars_mujoco.benchmark import measure
+
+ALLOWED = 1.5  # times a bare step of the same model
+
+
+def test_a_closed_loop_step_costs_more_than_a_bare_one():
+    cost = measure(shipped.simulation("s_curve_120kmh"), rounds=3)
+    assert cost.rounds == 3
+    assert cost.closed_loop > cost.bare > 0
+    assert cost.ratio_quartiles[0] <= cost.ratio <= cost.ratio_quartiles[1]
+    assert cost.real_time_factor == pytest.approx(0.001 / cost.closed_loop)
+    assert mujoco.get_mjcb_control() is None
+
+
+@pytest.mark.slow
+def test_a_closed_loop_step_is_within_what_is_allowed():
+    cost = measure(shipped.simulation("s_curve_120kmh"))
+    print(f"{cost.ratio:.3f} times a bare step of {1e6 * cost.bare:.1f} us, {cost.real_time_factor:.0f} times real time")
+    assert cost.ratio <= ALLOWED
