@@ -6,16 +6,20 @@ forces held), both from the same state in mid-manoeuvre, so that a machine that 
 
 import time
 from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import mujoco
 import numpy as np
 
 from ars_mujoco.callback import installed
 from ars_mujoco.native_loop import advance
+from ars_mujoco.recording.folder import RunFolder
 from ars_mujoco.setup import Simulation
-from ars_mujoco.simulation import FRAME, empty_recording
+from ars_mujoco.simulation import FRAME, empty_recording, simulate
 
 ROUND = 1000  # steps
+RECORDED = 9  # whole runs, with and without a recording
 LEAD = 2.0  # s driven before the first round, so that everything moves
 
 
@@ -29,10 +33,11 @@ class Cost:
     ratio_quartiles: tuple[float, float]
     real_time_factor: float
     rounds: int
+    recording_ratio: float  # a whole run that writes its .rrd over one that does not
 
 
-def measure(simulation: Simulation, rounds: int = 40) -> Cost:
-    """The cost of a step of `simulation`, from `rounds` interleaved rounds."""
+def measure(simulation: Simulation, rounds: int = 60) -> Cost:
+    """The cost of a step of `simulation`, from `rounds` interleaved rounds, and of writing its recording."""
     model, data = simulation.model, simulation.start()
     channels = len(empty_recording(simulation).channels)
     stride, out_slot = round(FRAME / model.opt.timestep), simulation.rig.WORLD.fields["out"][1] // 8
@@ -62,7 +67,22 @@ def measure(simulation: Simulation, rounds: int = 40) -> Cost:
         closed_loop=float(closed_step), bare=float(bare_step), ratio=float(np.median(ratios)),
         ratio_quartiles=tuple(float(q) for q in np.quantile(ratios, (0.25, 0.75))),
         real_time_factor=float(model.opt.timestep / closed_step), rounds=rounds,
+        recording_ratio=_recording_ratio(simulation),
     )  # fmt: skip
+
+
+def _recording_ratio(simulation: Simulation) -> float:
+    """Median over interleaved whole runs of the time with the .rrd written, from opening to closing it, over without."""
+    recorded, plain = [], []
+
+    def record() -> None:
+        with TemporaryDirectory() as folder, RunFolder(Path(folder), empty_recording(simulation)) as run:
+            _timed(lambda: (simulate(simulation, run.append), run.close()), recorded)
+
+    for _ in range(RECORDED):
+        record()
+        _timed(lambda: simulate(simulation), plain)
+    return float(np.median(np.divide(recorded, plain)))
 
 
 def _timed(function, seconds: list[float]) -> None:

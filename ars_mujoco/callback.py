@@ -37,6 +37,10 @@ _NUSERDATA, _NNUMERICDATA, _NUMERIC = _MODEL["nuserdata"], _MODEL["nnumericdata"
 _NO_BOUND = 1 << 30  # the arrays below are not bounds-checked; their true lengths are the model's
 
 
+# what MuJoCo would write to its log file, the world records as a status and the loop raises
+_SILENCE = ctypes.CFUNCTYPE(None, ctypes.c_char_p)(lambda _: None)
+
+
 @contextlib.contextmanager
 def installed(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None):
     """Install `rig`'s callback for the length of a `with` block, and restore what was there.
@@ -56,12 +60,14 @@ def installed(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None):
         function = python_callback(rig, law)
     else:
         function = c_function((law.callback(rig) if law else rig.CALLBACK).address)
-    before = mujoco.get_mjcb_control()
+    before, warned_before = mujoco.get_mjcb_control(), mujoco.get_mju_user_warning()
     mujoco.set_mjcb_control(function)
+    mujoco.set_mju_user_warning(_SILENCE)
     try:
         yield python
     finally:
         mujoco.set_mjcb_control(before)
+        mujoco.set_mju_user_warning(warned_before)
 
 
 def c_function(address: int):

@@ -162,6 +162,7 @@ def bench(as_json: Json = False) -> None:
     print(f"closed loop  {1e6 * cost.closed_loop:.2f} us a step, {cost.real_time_factor:.0f} times real time")
     print(f"bare step    {1e6 * cost.bare:.2f} us")
     print("ratio        {:.3f}, quartiles {:.3f} to {:.3f}".format(cost.ratio, *cost.ratio_quartiles))
+    print(f"recording    {cost.recording_ratio:.3f} times the run without its .rrd")
 
 
 def _study(cycle, actuators, vehicle, controller, settings, out, as_json) -> None:

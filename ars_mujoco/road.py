@@ -18,6 +18,8 @@ class Bump(Parameters):
 @kernel
 def height_and_slope(p, x, y):
     """Height z (m) of the road at (x, y) (m), and its slopes dz/dx and dz/dy."""
+    if p.side == 0.0:
+        return 0.0, 0.0, 0.0
     s = (x - p.position) / p.length
     if s <= 0.0 or s >= 1.0 or y * p.side <= 0.0:
         return 0.0, 0.0, 0.0

@@ -223,6 +223,7 @@ def _reference(record, model, actuator, controller: Controller, vehicle) -> None
         raise InputError("controller.reference: is missing; only the bench does without")
     reference = controller.reference
     fill(record.accelerometer, reference.accelerometer)
+    fill(record.fade, reference.fade)
     fill(record.trim, reference.trim)
     record.gravity = GRAVITY
     if isinstance(actuator, PumpControlled):

@@ -9,6 +9,7 @@ from ars_mujoco import world as worlds
 from ars_mujoco.callback import installed
 from ars_mujoco.channels import channels
 from ars_mujoco.errors import SimulationError
+from ars_mujoco.events import Watch
 from ars_mujoco.native_loop import advance
 from ars_mujoco.recording.recording import Recording, joined, scene_of
 from ars_mujoco.setup import Simulation
@@ -26,11 +27,12 @@ def simulate(simulation: Simulation, on_chunk: Callable[[Recording], None] | Non
     model, data = simulation.model, simulation.start()
     empty = empty_recording(simulation)
     steps, per_chunk = round(simulation.duration / model.opt.timestep), round(CHUNK / model.opt.timestep)
-    chunks = []
+    chunks, watch = [], Watch()
     with installed(simulation.rig, model, data, simulation.law) as python:
         for first in range(0, steps + 1, per_chunk):
             count = min(per_chunk, steps + 1 - first)
             chunks.append(_chunk(simulation, data, empty, first, count, first + count > steps, python))
+            chunks[-1].events = watch.events(chunks[-1])
             if on_chunk:
                 on_chunk(chunks[-1])
             _check(simulation, data, chunks[-1])

@@ -1,4 +1,4 @@
-"""Shipped cycles, prepared and driven once however many tests look at them. What is returned is shared: do not change it."""
+"""Shipped cycles, prepared and driven once however many tests look at them; so what is returned must not be changed."""
 
 from copy import copy
 from dataclasses import replace

@@ -190,9 +190,9 @@ def test_so_does_a_run_with_another_control_unit(settings):
 
 
 def test_nothing_outside_the_state_matters(sedan, middle, end):
-    derived = """qacc xpos xquat xmat xipos ximat xanchor xaxis site_xpos site_xmat geom_xpos subtree_com cvel cacc cfrc_int
-        qfrc_bias qfrc_passive qfrc_actuator qfrc_constraint qfrc_smooth qacc_smooth actuator_force actuator_length
-        actuator_velocity ten_length ten_velocity sensordata""".split()
+    derived = """qacc xpos xquat xmat xipos ximat xanchor xaxis site_xpos site_xmat geom_xpos subtree_com cvel cacc
+        cfrc_int qfrc_bias qfrc_passive qfrc_actuator qfrc_constraint qfrc_smooth qacc_smooth actuator_force
+        actuator_length actuator_velocity ten_length ten_velocity sensordata""".split()
     data, random = shipped.restored(sedan.model, middle), np.random.default_rng(1)
     with installed(sedan.rig, sedan.model, data):
         for _ in range(ON):

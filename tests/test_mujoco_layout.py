@@ -63,4 +63,3 @@ def test_a_field_that_is_elsewhere_is_refused_by_its_name(struct, name, sedan, m
     misplaced(struct, name)
     with pytest.raises(ArsError, match=rf"{mujoco.__version__} keeps {struct}\.{name} elsewhere"):
         mujoco_layout.validate(*sedan)
-

@@ -7,7 +7,7 @@ import shipped
 
 from ars_mujoco import world as worlds
 from ars_mujoco.callback import installed
-from ars_mujoco.native_loop import _advance_python, advance
+from ars_mujoco.native_loop import advance
 
 STEPS, STRIDE, MADE_BEFORE = 45, 10, 3
 
@@ -17,18 +17,18 @@ def simulation(request):
     return shipped.simulation(request.param)
 
 
-def recorded(loop, simulation, data, channels=12):
-    """(steps made, times, values, poses) of a loop from `data`."""
+def recorded(simulation, data, python=False, channels=12):
+    """(steps made, times, values, poses) from `data` on."""
     times, values = np.full(STEPS, np.nan), np.full((STEPS, channels), np.nan)
     poses = np.full((len(range(-MADE_BEFORE % STRIDE, STEPS, STRIDE)), simulation.model.nbody, 7), np.nan)
     slot = simulation.rig.WORLD.fields["out"][1] // 8
     with installed(simulation.rig, simulation.model, data):
-        made = loop(simulation.model, data, times, values, poses, STRIDE, slot, MADE_BEFORE)
+        made = advance(simulation.model, data, times, values, poses, STRIDE, slot, MADE_BEFORE, python)
     return made, times, values, poses
 
 
 def test_it_records_bit_for_bit_what_a_python_loop_records(simulation):
-    native, plain = (recorded(loop, simulation, shipped.driven(simulation, 0.54)) for loop in (advance, _advance_python))
+    native, plain = (recorded(simulation, shipped.driven(simulation, 0.54), python) for python in (False, True))
     for ours, theirs in zip(native, plain, strict=True):
         np.testing.assert_array_equal(ours, theirs)
     assert np.isfinite(np.hstack([native[2].ravel(), native[3].ravel()])).all()
@@ -36,13 +36,13 @@ def test_it_records_bit_for_bit_what_a_python_loop_records(simulation):
 
 def test_a_sample_is_of_the_time_before_its_step(simulation):
     data = shipped.driven(simulation, 0.54)
-    _, times, _, _ = recorded(advance, simulation, data)
+    _, times, _, _ = recorded(simulation, data)
     np.testing.assert_allclose(times, 0.54 + 0.001 * np.arange(STEPS), rtol=1e-12)
     assert data.time == pytest.approx(0.54 + 0.001 * STEPS)
 
 
 def test_poses_are_of_every_tenth_step_of_the_whole_run(simulation):
-    _, _, _, poses = recorded(advance, simulation, shipped.driven(simulation, 0.54))
+    _, _, _, poses = recorded(simulation, shipped.driven(simulation, 0.54))
     data = shipped.driven(simulation, 0.54 + 0.001 * 7)  # three steps were made before, seven more make ten
     with installed(simulation.rig, simulation.model, data):
         mujoco.mj_forward(simulation.model, data)
@@ -53,7 +53,7 @@ def test_it_stops_at_the_step_in_which_something_went_wrong(simulation, tmp_path
     monkeypatch.chdir(tmp_path)  # MuJoCo writes what it warns of into the current folder
     data = shipped.driven(simulation, 0.54)
     worlds.view(data, simulation.rig.WORLD).later.stabilizers.front.circuit.angle = np.nan
-    made, times, _, _ = recorded(advance, simulation, data)
+    made, times, _, _ = recorded(simulation, data)
     assert made == 1
     assert worlds.view(data, simulation.rig.WORLD).header.status == worlds.NOT_FINITE
     assert np.isnan(times[1:]).all()

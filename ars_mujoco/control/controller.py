@@ -4,6 +4,7 @@ from ars_mujoco.control.accelerometer import Accelerometer
 from ars_mujoco.control.bar_angle_loop import BarAngleLoop
 from ars_mujoco.control.control_unit import ControlUnit
 from ars_mujoco.control.roll_trim import RollTrim
+from ars_mujoco.control.speed_fade import SpeedFade
 from ars_mujoco.parameters import Number, Parameters, Quantity
 
 
@@ -12,6 +13,7 @@ class Reference(Parameters):
 
     accelerometer: Accelerometer
     target: list[tuple[Quantity("m/s^2", ge=0), Quantity("rad")]]  # knots: lateral acceleration, wanted roll
+    fade: SpeedFade
     front_share: Number(gt=0, lt=1)  # of the bars' torque
     trim: RollTrim
 

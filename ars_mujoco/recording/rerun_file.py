@@ -15,7 +15,7 @@ from ars_mujoco.recording.rerun_layout import layout
 from ars_mujoco.recording.rerun_run import RerunRun
 
 APPLICATION = "ars_mujoco"
-WRITE_EVERY = 0.5  # s of wall time between two writes: the fewer, the cheaper
+WRITE_EVERY = 0.1  # s of wall time between two writes: the fewer, the cheaper
 
 
 class RerunFile:

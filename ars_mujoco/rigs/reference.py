@@ -8,6 +8,7 @@ from ars_mujoco.control.control_unit import samples_now
 from ars_mujoco.control.law import MEMORY, SENSORS
 from ars_mujoco.control.reference_map import REFERENCE_MAP, bar_angles
 from ars_mujoco.control.roll_trim import RollTrim, trim
+from ars_mujoco.control.speed_fade import SpeedFade, fade
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 
@@ -15,6 +16,7 @@ PARAMETERS = np.dtype(
     [
         ("accelerometer", record_dtype(Accelerometer)),
         ("map", REFERENCE_MAP),
+        ("fade", record_dtype(SpeedFade)),
         ("trim", record_dtype(RollTrim)),
         ("gravity", "f8"),  # m/s^2
     ]
@@ -55,9 +57,10 @@ def read_accelerometer(p, now, later, sensors, velocity, axis, frame_acceleratio
 
 @kernel
 def own_reference(p, unit, later, sensors, step: float) -> None:
-    """The shipped controller: the target map of this very car, and the trim on measured roll."""
+    """The shipped controller: the target map of this very car, the trim on measured roll, faded in with speed."""
     if samples_now(unit, sensors.time, step):
         front, rear, roll = bar_angles(p.map, sensors.lateral_acceleration)
         correction = trim(p.trim, later.memory[0], sensors.roll - roll, sensors.step)
         later.memory[0] = correction
-        later.front, later.rear = front + correction, rear + correction
+        share = fade(p.fade, sensors.speed)
+        later.front, later.rear = share * (front + correction), share * (rear + correction)

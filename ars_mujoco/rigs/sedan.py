@@ -198,7 +198,8 @@ def act(world, mj) -> None:
         (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
     )  # fmt: skip
     apply_bar_torques(at.bars, mj, front, rear)
-    check_finite(world, total + front + rear + steer + front_torque + rear_torque, mj.time)
+    driver = steer + front_torque + rear_torque + out.driver.course_error + later.driver.trim
+    check_finite(world, total + front + rear + driver, mj.time)
 
 
 @kernel

@@ -10,7 +10,14 @@ from hypothesis import strategies as st
 from records import blank
 
 from ars_mujoco.hydraulics.line import capacitance
-from ars_mujoco.hydraulics.reduced_circuit import CircuitEnergy, CircuitState, advance, rates, stored_energy
+from ars_mujoco.hydraulics.reduced_circuit import (
+    CircuitEnergy,
+    CircuitState,
+    advance,
+    advance_both,
+    rates,
+    stored_energy,
+)
 from ars_mujoco.hydraulics.vane_motor import stop_torque
 
 BAR = 1e5
@@ -131,6 +138,22 @@ def test_advancing_leaves_the_state_it_starts_from():
     advance(SHIPPED, STIFFNESS, start, end, energy, energy, (0.0, 0.0, 0.0), 60.0, 0.0, 0.0, 1e-3, 8)
     assert start == state(angle=0.1)
     assert end != start
+
+
+def test_two_circuits_in_lockstep_go_as_each_alone():
+    circuits, demands = (SHIPPED, circuit("rear")), [((0.1, 0.3, 0.0), 60.0, 0.0, 0.01), ((0.0, 0.0, 0.0), 0.0, -0.4, 0.02)]
+    starts = state(angle=0.1, pressure=20 * BAR), state(stroke=0.2, rate=-0.3)
+    energies, ends = (blank(CircuitEnergy), blank(CircuitEnergy)), (state(), state())
+    torques = advance_both(
+        *circuits, STIFFNESS, STIFFNESS, *starts, *ends, blank(CircuitEnergy), blank(CircuitEnergy), *energies,
+        *demands, 1e-3, 8,
+    )  # fmt: skip
+    for parameters, start, end, energy, demand, torque in zip(circuits, starts, ends, energies, demands, torques, strict=True):
+        alone, its_energy = state(), blank(CircuitEnergy)
+        expected = advance(
+            parameters, STIFFNESS, start, alone, blank(CircuitEnergy), its_energy, *demand, 1e-3, 8
+        )  # fmt: skip
+        assert (end, energy, torque) == (alone, its_energy, expected)
 
 
 def test_the_returned_torque_is_the_mean_over_the_step():

@@ -27,7 +27,7 @@ LINKS = [f"{axle}_link_{side}" for axle in ("front", "rear") for side in ("left"
         (STEP_STEER, AT_1500_RPM, 6),
         (ROLL_PLANE, (), 4),
     ],
-    ids=["s-curve at 3000 rpm", "s-curve at 1500 rpm", "step steer at 3000 rpm", "step steer at 1500 rpm", "roll plane"],
+    ids=["s-curve 3000 rpm", "s-curve 1500 rpm", "step steer 3000 rpm", "step steer 1500 rpm", "roll plane"],
 )
 def test_the_roll_reduction_factor(cycle, settings, least):
     result = shipped.measured(cycle, *settings)

@@ -1,0 +1,21 @@
+"""Speed fade: the reference fades in with speed.
+
+A tire's carcass is damped by rolling: at walking pace the body sways on the tires at 2 to 3 Hz with almost no damping,
+and the loop from the accelerometer over the bars to that sway would feed it.
+"""
+
+from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import Parameters, Quantity
+
+
+class SpeedFade(Parameters):
+    """Speeds (m/s) from which the reference begins to act, and at which it acts in full."""
+
+    begin: Quantity("m/s", ge=0)
+    full: Quantity("m/s", gt=0)
+
+
+@kernel
+def fade(settings, speed: float) -> float:
+    """Share of the reference, 0 to 1, at a forward speed (m/s); linear between the two speeds."""
+    return min(max((abs(speed) - settings.begin) / (settings.full - settings.begin), 0.0), 1.0)
