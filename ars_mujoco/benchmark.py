@@ -1,7 +1,7 @@
 """Benchmark: the cost of a closed-loop step over a bare mj_step of the same model, in one run.
 
-Rounds alternate between the closed loop (callback, every channel recorded) and the bare step (callback removed, its last
-forces held), both from the same state in mid-manoeuvre, so that a machine that slows down slows both.
+Rounds alternate between the closed loop (callback, every channel recorded) and the bare step (callback removed, its
+last forces held), both from the same state in mid-manoeuvre, so that a machine that slows down slows both.
 """
 
 import time
@@ -15,8 +15,7 @@ import numpy as np
 from ars_mujoco.callback import installed
 from ars_mujoco.native_loop import advance
 from ars_mujoco.recording.folder import RunFolder
-from ars_mujoco.setup import Simulation
-from ars_mujoco.simulation import FRAME, empty_recording, simulate
+from ars_mujoco.simulation import FRAME, Simulation, empty_recording, simulate
 
 ROUND = 1000  # steps
 RECORDED = 9  # whole runs, with and without a recording
@@ -43,7 +42,8 @@ def measure(simulation: Simulation, rounds: int = 60) -> Cost:
     stride, out_slot = round(FRAME / model.opt.timestep), simulation.rig.WORLD.fields["out"][1] // 8
     times, values = np.empty(ROUND), np.empty((ROUND, channels))
     poses = np.empty((ROUND // stride + 1, model.nbody, 7))
-    state, spec = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_INTEGRATION)), mujoco.mjtState.mjSTATE_INTEGRATION
+    spec = mujoco.mjtState.mjSTATE_INTEGRATION
+    state = np.empty(mujoco.mj_stateSize(model, spec))
 
     def closed_loop() -> None:
         with installed(simulation.rig, model, data):
@@ -72,7 +72,7 @@ def measure(simulation: Simulation, rounds: int = 60) -> Cost:
 
 
 def _recording_ratio(simulation: Simulation) -> float:
-    """Median over interleaved whole runs of the time with the .rrd written, from opening to closing it, over without."""
+    """Median over interleaved whole runs of the time with the .rrd written and closed, over the time without."""
     recorded, plain = [], []
 
     def record() -> None:

@@ -1,9 +1,9 @@
 """The bridge to MuJoCo: a rig's step, compiled to a C function and installed as `mjcb_control`.
 
-    mj_step ─> mjcb_control(m, d) ─> Fields of mjData + the world in userdata ─> rig.step ─> forces back into mjData
+    mj_step ─> mjcb_control(m, d) ─> mjData fields + the world in userdata ─> rig.step ─> forces in mjData
 
-The native callback takes no interpreter lock, so it also runs under `mujoco.batch.Batch` and in the viewer. The twin for
-debugging (NUMBA_DISABLE_JIT=1) runs the same `rig.step` from Python.
+The native callback takes no interpreter lock, so it also runs under `mujoco.batch.Batch` and in the viewer. The twin
+for debugging (NUMBA_DISABLE_JIT=1) runs the same `rig.step` from Python.
 """
 
 import contextlib
@@ -22,7 +22,9 @@ from ars_mujoco.kernel import interpreted, kernel
 from ars_mujoco.world import MAGIC, VERSION
 
 # the fields of mjData a rig reads and writes, flat float64 arrays
-Fields = namedtuple("Fields", "time qpos qvel ctrl qfrc_applied xfrc_applied mocap_pos xpos xmat site_xpos xanchor xaxis")
+Fields = namedtuple(
+    "Fields", "time qpos qvel ctrl qfrc_applied xfrc_applied mocap_pos xpos xmat site_xpos xanchor xaxis"
+)
 
 SIGNATURE = types.void(types.intp, types.intp)  # mjModel*, mjData*
 
@@ -50,16 +52,16 @@ def installed(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None):
     Raises ArsError for an integrator that calls more than once a step, and for a model not built for this rig.
     """
     if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
-        raise ArsError("integrator RK4 is refused: it evaluates forces four times a step, and the hydraulics advance once")
+        raise ArsError("integrator RK4 is refused: it takes forces four times a step, and the hydraulics advance once")
     carried = model.numeric_data[-model.nuserdata :]
     if model.nuserdata * 8 != rig.WORLD.itemsize or tuple(carried[:2]) != (MAGIC, VERSION):
-        raise ArsError(f"this model was not built for the rig '{rig.NAME}': it carries no world of its layout {VERSION:g}")
+        raise ArsError(
+            f"this model was not built for the rig '{rig.NAME}': it carries no world of its layout {VERSION:g}"
+        )
     mujoco_layout.validate(model, data)
     python = interpreted or law is not None and not law.is_native
-    if python:
-        function = python_callback(rig, law)
-    else:
-        function = c_function((law.callback(rig) if law else rig.CALLBACK).address)
+    native = law.callback(rig) if law and not python else rig.CALLBACK
+    function = python_callback(rig, law) if python else c_function(native.address)
     before, warned_before = mujoco.get_mjcb_control(), mujoco.get_mju_user_warning()
     mujoco.set_mjcb_control(function)
     mujoco.set_mju_user_warning(_SILENCE)

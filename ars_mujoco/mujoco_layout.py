@@ -15,8 +15,8 @@ from ars_mujoco.errors import ArsError
 
 # the fields that the callback reads or writes
 DATA_FIELDS = (
-    "qpos", "qvel", "ctrl", "qfrc_applied", "xfrc_applied", "mocap_pos", "userdata", "xpos", "xquat", "xmat", "site_xpos",
-    "xanchor", "xaxis",
+    "qpos", "qvel", "ctrl", "qfrc_applied", "xfrc_applied", "mocap_pos", "userdata",
+    "xpos", "xquat", "xmat", "site_xpos", "xanchor", "xaxis",
 )  # fmt: skip
 MODEL_FIELDS = ("numeric_data",)
 MODEL_NUMBERS = ("signature", "nuserdata", "nnumericdata")

@@ -26,7 +26,9 @@ def _mj_step() -> int:
 
 def _library() -> Path:
     folder = Path(mujoco.__file__).parent
-    return next(path for pattern in ("libmujoco.so*", "libmujoco*.dylib", "mujoco.dll") for path in folder.glob(pattern))
+    return next(
+        path for pattern in ("libmujoco.so*", "libmujoco*.dylib", "mujoco.dll") for path in folder.glob(pattern)
+    )
 
 
 def advance(model, data, times, values, poses, stride: int, out_slot: int, first: int, python: bool) -> int:
@@ -34,7 +36,8 @@ def advance(model, data, times, values, poses, stride: int, out_slot: int, first
 
     times (n,) s; values (n, nchannel), the `out` block that starts at number `out_slot` of userdata; poses
     (m, nbody, 7), position and quaternion wxyz at every `stride`-th step, counted with `first` steps made before.
-    Stops early where the world's status says that something went wrong. A callback in Python needs the loop in Python.
+    Stops early where the world's status says that something went wrong. With `python` the loop itself is in Python, as
+    a callback in Python needs it.
     """
     if python:
         return _advance_python(model, data, times, values, poses, stride, out_slot, first)

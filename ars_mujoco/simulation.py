@@ -1,6 +1,8 @@
 """The simulation: drive a cycle and return its recording. This is the loop; everything else serves it."""
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
+from types import ModuleType
 
 import mujoco
 import numpy as np
@@ -8,15 +10,33 @@ import numpy as np
 from ars_mujoco import world as worlds
 from ars_mujoco.callback import installed
 from ars_mujoco.channels import channels
+from ars_mujoco.control.law import Law
 from ars_mujoco.errors import SimulationError
 from ars_mujoco.events import Watch
 from ars_mujoco.native_loop import advance
 from ars_mujoco.recording.recording import Recording, joined, scene_of
-from ars_mujoco.setup import Simulation
 
 CHUNK = 2.0  # s between two looks at the run
 FRAME = 0.01  # s between two recorded poses
 LAST_SAMPLES = 5  # that a failed run's error shows
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """What `simulate` runs: a rig's module and a model that carries the initial world; keyframe 0 is the start."""
+
+    rig: ModuleType
+    model: mujoco.MjModel
+    duration: float  # s
+    title: str
+    law: Law | None = None  # a user's controller in place of the shipped one
+    inputs: dict = field(default_factory=dict)
+
+    def start(self) -> mujoco.MjData:
+        """New data at the start of the cycle; the world follows at the first call."""
+        data = mujoco.MjData(self.model)
+        mujoco.mj_resetDataKeyframe(self.model, data, 0)
+        return data
 
 
 def simulate(simulation: Simulation, on_chunk: Callable[[Recording], None] | None = None) -> Recording:
@@ -79,7 +99,9 @@ def _check(simulation: Simulation, data: mujoco.MjData, chunk: Recording) -> Non
         return
     time = float(header.status_time)
     if header.status == worlds.TIME_JUMP:
-        raise SimulationError(f"time jumped to {time:g} s: the simulation steps by {header.step:g} s only", time, "time")
+        raise SimulationError(
+            f"time jumped to {time:g} s: the simulation steps by {header.step:g} s only", time, "time"
+        )
     bad = ~np.isfinite(chunk.values[-1])
     channel = list(chunk.channels)[int(np.argmax(bad))] if bad.any() else "body.roll"
     samples = {channel: chunk[channel][-LAST_SAMPLES:].tolist()}

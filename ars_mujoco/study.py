@@ -17,8 +17,8 @@ from ars_mujoco.metrics import Run, Value, measure
 from ars_mujoco.recording.comparison import write_comparison
 from ars_mujoco.recording.folder import RunFolder
 from ars_mujoco.recording.recording import Recording
-from ars_mujoco.setup import Simulation, prepare
-from ars_mujoco.simulation import empty_recording, simulate
+from ars_mujoco.setup import prepare
+from ars_mujoco.simulation import Simulation, empty_recording, simulate
 
 COMPARISON = "compare.rrd"
 

@@ -10,12 +10,13 @@ from ars_mujoco.files import read
 from ars_mujoco.hydraulics.reduced_circuit import CircuitState, rates
 from ars_mujoco.inputs import read_inputs
 from ars_mujoco.recording.recording import Recording
-from ars_mujoco.setup import Simulation, prepare
-from ars_mujoco.simulation import simulate
+from ars_mujoco.setup import prepare
+from ars_mujoco.simulation import Simulation, simulate
 
 STIFFNESS = 5700.0  # Nm/rad, of the bench's bar
 AT_REST = (0.0,) * 6
-NUDGES = {"spool": 1e-6, "spool_rate": 1e-4, "stroke": 1e-6, "pressure": 1.0, "angle": 1e-8, "rate": 1e-7}
+NUDGES = (1e-6, 1e-4, 1e-6, 1.0, 1e-8, 1e-7)  # of the six states, for differences
+ANGLE = list(CircuitState.model_fields).index("angle")
 
 
 def circuit(axle: str = "front") -> np.record:
@@ -39,12 +40,12 @@ def linearized(parameters: np.record, gain: float = 0.0, at: tuple = AT_REST) ->
     command; central differences of the running code.
     """
 
-    def slope(by, by_command):
-        ahead, behind = (
-            rates(parameters, STIFFNESS, tuple(np.add(at, h * by)), h * (by_command - gain * by[4]), 0.0)[0] for h in (1, -1)
-        )
-        return np.subtract(ahead, behind) / 2.0
+    def rate(by, by_command):
+        stroke_command = by_command - gain * by[ANGLE]
+        return np.array(rates(parameters, STIFFNESS, tuple(np.add(at, by)), stroke_command, 0.0)[0])
 
-    nudges = np.diag([NUDGES[name] for name in CircuitState.model_fields])
-    states = np.column_stack([slope(nudge, 0.0) / nudge.sum() for nudge in nudges])
-    return states, slope(np.zeros(6), 1e-6) / 1e-6
+    def slope(by, by_command):
+        return (rate(by, by_command) - rate(-by, -by_command)) / 2.0
+
+    states = [slope(nudge, 0.0) / nudge.sum() for nudge in np.diag(NUDGES)]
+    return np.column_stack(states), slope(np.zeros(6), 1e-6) / 1e-6

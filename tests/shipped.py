@@ -10,8 +10,7 @@ import numpy as np
 from ars_mujoco.callback import installed
 from ars_mujoco.inputs import read_compared, read_inputs
 from ars_mujoco.recording.recording import Recording
-from ars_mujoco.setup import Simulation
-from ars_mujoco.simulation import simulate
+from ars_mujoco.simulation import Simulation, simulate
 from ars_mujoco.study import Result, simulation_of, study
 
 INTEGRATION = mujoco.mjtState.mjSTATE_INTEGRATION

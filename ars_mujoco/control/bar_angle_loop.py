@@ -10,7 +10,7 @@ class BarAngleLoop(Parameters):
 
     gain: Quantity("1/rad", gt=0)  # K_p at the gain's own speed: full stroke over angle error
     gain_speed: Quantity("rad/s", gt=0)  # the pump speed at which `gain` holds
-    schedule: Number(ge=0, le=1)  # 1: K_p in proportion to 1/n, the loop is the same at every speed; 0: fixed, the paper's
+    schedule: Number(ge=0, le=1)  # 1: K_p ~ 1/n, the loop is the same at every speed; 0: fixed, the paper's
     max_angle: Quantity("rad", gt=0)  # limit of the command, not the motor's mechanical stop
 
 

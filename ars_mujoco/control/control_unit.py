@@ -1,7 +1,8 @@
 """Control unit: a computer that samples, and whose output comes late.
 
-With a sample time of zero the unit is continuous: its outer loop lives inside the circuit's substeps, and the delay
-acts on the commanded angle. With a sample time the whole outer loop is sampled and the delay acts on the stroke command.
+With a sample time of zero the unit is continuous: its outer loop lives inside the circuit's substeps, and the
+delay acts on the commanded angle. With a sample time the whole outer loop is sampled, and the delay acts on the
+stroke command.
 """
 
 import numpy as np

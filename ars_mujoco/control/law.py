@@ -3,8 +3,8 @@
     def command(sensors, memory):
         return front_angle, rear_angle      # rad, commanded angles of the bars
 
-`sensors` has the fields of `control.sensors.Sensors`; `memory` holds 32 numbers that stay from sample to sample and begin
-at zero. The function is called once a sample of the control unit. Where numba can compile it, it runs natively.
+`sensors` has the fields of `control.sensors.Sensors`; `memory` holds 32 numbers that stay from sample to sample and
+begin at zero. The function is called once a sample of the control unit. Where numba can compile it, it runs natively.
 """
 
 import importlib.util
@@ -41,8 +41,8 @@ class Law:
         except numba.core.errors.NumbaError as error:
             reason = str(error).splitlines()[1]  # the first line names the compiler's stage
             warnings.warn(
-                f"{self.path}: {FUNCTION}() does not compile, so it runs in Python and every step takes several times as"
-                f" long: {reason}",
+                f"{self.path}: {FUNCTION}() does not compile, so it runs in Python and every step takes several times"
+                f" as long: {reason}",
                 stacklevel=2,
             )
             return False

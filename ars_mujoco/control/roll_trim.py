@@ -1,7 +1,7 @@
 """Roll trim: a slow correction of the bar angles by the measured roll, for what the statics do not know (optional)."""
 
 from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.parameters import Parameters, Quantity
 from ars_mujoco.saturation import saturate
 
 

@@ -16,7 +16,7 @@ import math
 
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.swash_plate_loop import SwashPlateLoop, valve_command
-from ars_mujoco.hydraulics.line import Line, capacitance, capacitance_slope, middle_volume
+from ars_mujoco.hydraulics.line import Line, capacitance, capacitance_slope
 from ars_mujoco.hydraulics.pump import Pump, ideal_flow, torque_loss
 from ars_mujoco.hydraulics.relief_valve import ReliefValve, relief_flow
 from ars_mujoco.hydraulics.servo_valve import ServoValve, spool_acceleration
@@ -104,12 +104,12 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     relief = relief_flow(circuit.relief_valve, pressure)
     friction = friction_torque(motor, rate)
     bar_torque = bar_stiffness * (angle - twist)
-    displaced = motor.displacement * rate
+    displaced, leakage = motor.displacement * rate, (pump.leakage + motor.leakage) * pressure
     derivatives = (
         spool_rate,
         spool_acceleration(circuit.servo_valve, spool, spool_rate, command),
         stroke_rate(circuit.swash_plate, spool),
-        (flow - (pump.leakage + motor.leakage) * pressure - relief - displaced) / capacitance(circuit.line, motor, angle),
+        (flow - leakage - relief - displaced) / capacitance(circuit.line, motor, angle),
         rate,
         1.0 / motor.inertia * (motor.displacement * pressure - bar_torque - stop_torque(motor, angle) - friction),
     )

@@ -5,7 +5,7 @@ import numpy as np
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.accelerometer import Accelerometer, AccelerometerState, low_pass, specific_force
 from ars_mujoco.control.control_unit import samples_now
-from ars_mujoco.control.law import MEMORY, SENSORS
+from ars_mujoco.control.law import MEMORY
 from ars_mujoco.control.reference_map import REFERENCE_MAP, bar_angles
 from ars_mujoco.control.roll_trim import RollTrim, trim
 from ars_mujoco.control.speed_fade import SpeedFade, fade
@@ -42,8 +42,8 @@ class SensorOutput(Parameters):
 def read_accelerometer(p, now, later, sensors, velocity, axis, frame_acceleration: float, step: float) -> float:
     """Read the accelerometer, filter it into `sensors`, return the unfiltered reading (m/s^2).
 
-    `velocity` and `axis` as in `specific_force`; `frame_acceleration` (m/s^2) is that of the frame in which the velocity
-    is measured, along the axis.
+    `velocity` and `axis` as in `specific_force`; `frame_acceleration` (m/s^2) is that of the frame in which the
+    velocity is measured, along the axis.
     """
     reading = frame_acceleration + specific_force(
         now.accelerometer, later.accelerometer, velocity, axis, p.gravity, step

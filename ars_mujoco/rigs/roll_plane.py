@@ -8,6 +8,7 @@ import numpy as np
 from ars_mujoco.actuators.axle import AxleOutput
 from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
+from ars_mujoco.control.law import SENSORS
 from ars_mujoco.kernel import NativeCallback, entry, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import reference, stabilizers
@@ -54,7 +55,7 @@ PARAMETERS = np.dtype(
     ]
 )
 STATE = np.dtype([("stabilizers", stabilizers.STATE), ("reference", reference.STATE)])
-WORLD = world_dtype(PARAMETERS, STATE, record_dtype(Output), np.dtype([("sensors", reference.SENSORS)]))
+WORLD = world_dtype(PARAMETERS, STATE, record_dtype(Output), np.dtype([("sensors", SENSORS)]))
 
 
 def addresses(model: mujoco.MjModel) -> dict:

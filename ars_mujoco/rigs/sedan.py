@@ -1,8 +1,8 @@
 """The sedan: a full car on its tires, with a driver, sensors, the controller and both axles' stabilizers.
 
-    motion ─> sensors ─> reference ─> stabilizers ─> bar torques
-       └────> driver  ─> steering, drive torques
-       └────> tires   ─> forces at the contact patches
+motion ─> sensors ─> reference ─> stabilizers ─> bar torques
+   └────> driver  ─> steering, drive torques
+   └────> tires   ─> forces at the contact patches
 """
 
 import math
@@ -13,6 +13,7 @@ import numpy as np
 from ars_mujoco.actuators.axle import AxleOutput
 from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
+from ars_mujoco.control.law import SENSORS
 from ars_mujoco.driver import Driver, DriverOutput, DriverState, drive, preview
 from ars_mujoco.kernel import NativeCallback, entry, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
@@ -66,7 +67,6 @@ class Output(Parameters):
     rear: AxleOutput
 
 
-
 # where things are in the model: numbers of bodies, degrees of freedom, joints, sites and controls
 ADDRESSES = np.dtype(
     [
@@ -107,7 +107,7 @@ STATE = np.dtype(
         ("running", "f8"),  # 1 once there is such a velocity
     ]
 )
-WORLD = world_dtype(PARAMETERS, STATE, record_dtype(Output), np.dtype([("sensors", reference.SENSORS)]))
+WORLD = world_dtype(PARAMETERS, STATE, record_dtype(Output), np.dtype([("sensors", SENSORS)]))
 
 
 def addresses(model: mujoco.MjModel) -> dict:
@@ -134,9 +134,7 @@ def step(world, mj) -> None:
     """One call of the callback with the shipped controller."""
     sense(world, mj)
     p = world.parameters
-    own_reference(
-        p.reference, p.stabilizers.unit, world.later.reference, world.scratch.sensors, world.header.step
-    )
+    own_reference(p.reference, p.stabilizers.unit, world.later.reference, world.scratch.sensors, world.header.step)
     act(world, mj)
 
 

@@ -30,7 +30,9 @@ STATE = np.dtype(
 
 
 @kernel
-def stabilize_both(p, now, later, front_out, rear_out, time, step, front_command, rear_command, front_twist, rear_twist):
+def stabilize_both(
+    p, now, later, front_out, rear_out, time, step, front_command, rear_command, front_twist, rear_twist
+):
     """Advance both axles by `step` s; return their bar torques (front, rear) in Nm.
 
     Commands are (c0, c1, c2) over the step as in `reduced_circuit.advance`; twists are (angle rad, rate rad/s).

@@ -141,19 +141,15 @@ def test_advancing_leaves_the_state_it_starts_from():
 
 
 def test_two_circuits_in_lockstep_go_as_each_alone():
-    circuits, demands = (SHIPPED, circuit("rear")), [((0.1, 0.3, 0.0), 60.0, 0.0, 0.01), ((0.0, 0.0, 0.0), 0.0, -0.4, 0.02)]
-    starts = state(angle=0.1, pressure=20 * BAR), state(stroke=0.2, rate=-0.3)
-    energies, ends = (blank(CircuitEnergy), blank(CircuitEnergy)), (state(), state())
-    torques = advance_both(
-        *circuits, STIFFNESS, STIFFNESS, *starts, *ends, blank(CircuitEnergy), blank(CircuitEnergy), *energies,
-        *demands, 1e-3, 8,
-    )  # fmt: skip
-    for parameters, start, end, energy, demand, torque in zip(circuits, starts, ends, energies, demands, torques, strict=True):
-        alone, its_energy = state(), blank(CircuitEnergy)
-        expected = advance(
-            parameters, STIFFNESS, start, alone, blank(CircuitEnergy), its_energy, *demand, 1e-3, 8
-        )  # fmt: skip
-        assert (end, energy, torque) == (alone, its_energy, expected)
+    circuits, bars = (SHIPPED, circuit("rear")), (STIFFNESS, 0.5 * STIFFNESS)
+    starts, ends = (state(angle=0.1, pressure=20 * BAR), state(stroke=0.2, rate=-0.3)), (state(), state())
+    before, after = [blank(CircuitEnergy), blank(CircuitEnergy)], [blank(CircuitEnergy), blank(CircuitEnergy)]
+    demands = ((0.1, 0.3, 9.0), 60.0, 0.1, 0.01), ((0.005, -0.2, 7.0), 40.0, -0.2, 0.02)
+    torques = advance_both(*circuits, *bars, *starts, *ends, *before, *after, *demands, 1e-3, 8)
+    for i, torque in enumerate(torques):
+        end, energy = state(), blank(CircuitEnergy)
+        alone = advance(circuits[i], bars[i], starts[i], end, before[i], energy, *demands[i], 1e-3, 8)
+        assert (ends[i], after[i], torque) == (end, energy, alone)
 
 
 def test_the_returned_torque_is_the_mean_over_the_step():

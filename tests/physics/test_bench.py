@@ -9,7 +9,7 @@ from ars_mujoco.hydraulics.reduced_circuit import rates
 
 NOMINAL = VerificationSet()
 REAR = VerificationSet(V_L=4.7e-4, C_0=9.8e-14)
-REVERSAL = Command(tuple((t, angle * np.pi / 180) for t, angle in ((0.0, 0.0), (0.02, 5.0), (0.3, 5.0), (0.32, -5.0), (0.6, -5.0))))
+REVERSAL = Command(((0.0, 0.0), (0.02, 0.09), (0.3, 0.09), (0.32, -0.09), (0.6, -0.09)))  # the valve opens fully
 STEPS = [("bench_step_1deg", STEP_1_DEG), ("bench_step_10deg", STEP_10_DEG)]
 CASES = [
     *[(*each, NOMINAL) for each in (*STEPS, ("bench_s_curve", S_CURVE))],
@@ -55,7 +55,9 @@ def runs(request):
 @pytest.mark.parametrize(("channel", "name"), STATES.items())
 def test_states_are_within_a_thousandth_of_their_peak_at_every_sample(runs, channel, name):
     recording, reference = runs
-    assert error(recording[channel], getattr(reference.state(recording.time), name)) < 1e-3
+    apart = error(recording[channel], getattr(reference.state(recording.time), name))
+    print(f"{recording.title}, {reference.parameters}: {name} {100 * apart:.5f} %")
+    assert apart < 1e-3
 
 
 @pytest.mark.parametrize(("channel", "name"), POWERS.items())
@@ -89,8 +91,8 @@ def commanding(command: Command, duration: float = 0.6) -> list[str]:
     ("parameters", "command"), [(REAR, STEP_1_DEG), (REAR, STEP_10_DEG), (NOMINAL, REVERSAL), (NOMINAL, step(14.4))]
 )
 def test_other_circuits_and_commands_agree_as_well(parameters, command):
-    recording, reference = drive("bench_step_1deg", *settings(parameters), *commanding(command)), solve(parameters, command)
-    state = reference.state(recording.time)
+    recording = drive("bench_step_1deg", *settings(parameters), *commanding(command))
+    state = solve(parameters, command).state(recording.time)
     assert error(recording["front.bar.angle"], state.phi) < 1e-3
     assert error(recording["front.motor.pressure"], state.dp) < 1e-3
 
@@ -115,12 +117,10 @@ def test_a_command_given_later_gives_the_same_run_later(start):
 
 
 @pytest.mark.parametrize("leakage", [4e-13, 1.2e-12, 2e-12])
-@pytest.mark.parametrize(("speed", "schedule", "scheduled"), [(3000, 0, 1), (1500, 0, 1), (1500, 1, 2)])
-def test_leakage_leaves_the_steady_state_error_of_the_closed_form(leakage, speed, schedule, scheduled):
-    gain = scheduled * 60.0 * 1.8e-6 * speed / 60 / NOMINAL.D  # K_v
-    a = leakage * STIFFNESS / NOMINAL.D**2
-    recording = drive(
-        "bench_step_1deg", "duration=3 s", f"actuator.front.pump.speed={speed} rpm", f"controller.loop.schedule={schedule}",
-        f"actuator.front.pump.leakage={0.5625 * leakage} m^3/s/Pa", f"actuator.front.motor.leakage={0.4375 * leakage} m^3/s/Pa",
-    )  # fmt: skip
-    assert 1.0 - np.degrees(recording["front.bar.angle"][-1]) == pytest.approx(a / (a + gain), rel=1e-5)
+@pytest.mark.parametrize(("rpm", "schedule", "gain"), [(3000, 0, 60.0), (1500, 0, 60.0), (1500, 1, 120.0)])
+def test_leakage_leaves_the_steady_state_error_of_the_closed_form(leakage, rpm, schedule, gain):
+    parameters = VerificationSet(k=leakage, n=rpm / 60)
+    a = leakage * STIFFNESS / parameters.D**2
+    K_v = gain * parameters.V_p * parameters.n / parameters.D
+    recording = drive("bench_step_1deg", "duration=3 s", f"controller.loop.schedule={schedule}", *settings(parameters))
+    assert 1.0 - np.degrees(recording["front.bar.angle"][-1]) == pytest.approx(a / (a + K_v), rel=1e-5)

@@ -44,7 +44,7 @@ def test_slopes_at_zero_slip_are_the_stiffnesses(load):
     assert longitudinal(1e-7, load) / 1e-7 == pytest.approx(21.5 * load, rel=1e-8)
 
 
-def test_cornering_stiffness_of_the_sedan_is_70_kN_a_radian_at_nominal_load():
+def test_cornering_stiffness_of_the_sedan_is_70_kilonewton_a_radian_at_nominal_load():
     assert cornering_stiffness(P, 4000.0) * 4000.0 == pytest.approx(70.4e3)
 
 

@@ -1,0 +1,31 @@
+"""Set-up: from validated files to a model whose userdata holds the whole world, at rest at the start of the cycle."""
+
+from importlib import import_module
+from pathlib import Path
+
+from ars_mujoco.actuators.actuator import Actuator
+from ars_mujoco.control.control_unit import check_timing
+from ars_mujoco.control.controller import Controller
+from ars_mujoco.control.law import law
+from ars_mujoco.cycle import Cycle
+from ars_mujoco.parameters import fill
+from ars_mujoco.setup.start import Start
+from ars_mujoco.simulation import Simulation
+from ars_mujoco.vehicle.bench import Bench
+from ars_mujoco.vehicle.model import specify
+from ars_mujoco.vehicle.roll_plane import RollPlane
+from ars_mujoco.vehicle.sedan import Sedan
+
+
+def prepare(cycle: Cycle, actuator: Actuator, controller: Controller, vehicle: Bench | RollPlane | Sedan) -> Simulation:
+    """The simulation of `cycle` with these parts.
+
+    Raises InputError where they do not fit together, and ArsError where the car has no rest or no statics.
+    """
+    rig = import_module(f"ars_mujoco.rigs.{cycle.rig}")
+    start = Start(rig, specify(vehicle), cycle, law(Path(controller.law)) if controller.law else None)
+    check_timing(controller.unit, start.step)
+    fill(start.parameters.stabilizers.loop, controller.loop)
+    fill(start.parameters.stabilizers.unit, controller.unit)
+    set_up = import_module(f"ars_mujoco.setup.{cycle.rig}").set_up
+    return set_up(start, cycle, actuator, controller, vehicle)

@@ -1,0 +1,36 @@
+"""Start: a world and the model that carries it, while both are made ready for a run."""
+
+from functools import cached_property
+from types import ModuleType
+
+import mujoco
+import numpy as np
+
+from ars_mujoco.control.law import Law
+from ars_mujoco.cycle import Cycle
+from ars_mujoco.simulation import Simulation
+from ars_mujoco.world import NUMERIC, new_world
+
+
+class Start:
+    """A new world of `rig`, to be filled through `parameters`, and the simulation whose model it is stored in."""
+
+    def __init__(self, rig: ModuleType, spec: mujoco.MjSpec, cycle: Cycle, law: Law | None):
+        self.rig, self.spec, self.cycle, self.law = rig, spec, cycle, law
+        self.step = spec.option.timestep  # s
+        self.world = new_world(rig.WORLD, self.step)
+        self.parameters = self.world[0].parameters
+
+    @cached_property
+    def simulation(self) -> Simulation:
+        """The simulation, compiled with room for the world in userdata and in the last custom numeric."""
+        size = self.world.nbytes // 8
+        self.spec.nuserdata = size
+        self.spec.add_numeric(name=NUMERIC, size=size, data=np.zeros(size))
+        return Simulation(self.rig, self.spec.compile(), self.cycle.duration, self.cycle.title, self.law)
+
+    def stored(self) -> Simulation:
+        """The simulation, with the world as it is now written into its model."""
+        model = self.simulation.model
+        model.numeric_data[-model.nuserdata :] = self.world.view(np.float64).reshape(-1)
+        return self.simulation
