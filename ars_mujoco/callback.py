@@ -52,7 +52,7 @@ def installed(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None):
     Raises ArsError for an integrator that calls more than once a step, and for a model not built for this rig.
     """
     if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
-        raise ArsError("integrator RK4 is refused: it takes forces four times a step, and the hydraulics advance once")
+        raise ArsError("integrator RK4 is refused: it evaluates forces four times a step, the hydraulics advance once")
     carried = model.numeric_data[-model.nuserdata :]
     if model.nuserdata * 8 != rig.WORLD.itemsize or tuple(carried[:2]) != (MAGIC, VERSION):
         raise ArsError(

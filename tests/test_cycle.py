@@ -72,7 +72,7 @@ def test_a_bump_lies_under_the_wheels_of_one_side():
 
 def test_the_bench_has_its_own_controller_by_default():
     assert cycle("bench_s_curve").controller == "verification"
-    assert cycle("roll_plane_step").controller == "cascade"
+    assert cycle("roll_plane_step").controller == "level"
 
 
 def test_an_expectation_is_held_in_the_metrics_unit():

@@ -5,7 +5,6 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ars_mujoco.actuators.axle import NO_BAR, PUMP_CONTROLLED, TORSION_BAR
-from ars_mujoco.control.bar_angle_loop import outer_gain
 from ars_mujoco.hydraulics.reduced_circuit import ReducedCircuit, substeps
 from ars_mujoco.kernel import entry
 from ars_mujoco.parameters import Parameters, fill
@@ -57,9 +56,9 @@ def fill_axle(record, actuator: Actuator, axle: str, stiffness: float, passive_s
         case PumpControlled():
             record.kind, record.stiffness = PUMP_CONTROLLED, stiffness
             fill(record.circuit, getattr(actuator, axle))
-            record.substeps = _substeps(record, loop, step)
+            record.substeps = _substeps(record, step)
 
 
 @entry
-def _substeps(axle, loop, step: float) -> int:
-    return substeps(axle.circuit, axle.stiffness, outer_gain(loop, axle.circuit.pump.speed), step)
+def _substeps(axle, step: float) -> int:
+    return substeps(axle.circuit, axle.stiffness, step)

@@ -93,19 +93,20 @@ def stabilize(p, now, later, front_out, rear_out, front_twist, rear_twist, front
     """Advance both axles by `step` s and return their bar torques (front, rear) in Nm over that step.
 
     `p`, `now`, `later` are records with a `front` and a `rear` of Axle and AxleState, the outs are AxleOutput records.
-    Twists now are (rad, rad/s); a demand is (command, gain, stroke_bias), as in `reduced_circuit.advance`.
+    Twists are (now rad, rate now rad/s, held over the step rad); a demand is (command, gain, stroke_bias), as in
+    `reduced_circuit.advance`.
     """
     if p.front.kind == PUMP_CONTROLLED and p.rear.kind == PUMP_CONTROLLED:
         front_torque, rear_torque = advance_both(
             p.front.circuit, p.rear.circuit, p.front.stiffness, p.rear.stiffness,
             now.front.circuit, now.rear.circuit, later.front.circuit, later.rear.circuit,
             now.front.energy, now.rear.energy, later.front.energy, later.rear.energy,
-            (*front_demand, front_twist[0]), (*rear_demand, rear_twist[0]),
+            (*front_demand, front_twist[2]), (*rear_demand, rear_twist[2]),
             step, int(max(p.front.substeps, p.rear.substeps)),
         )  # fmt: skip
     else:
-        front_torque = _alone(p.front, now.front, later.front, front_twist[0], front_demand, step)
-        rear_torque = _alone(p.rear, now.rear, later.rear, rear_twist[0], rear_demand, step)
+        front_torque = _alone(p.front, now.front, later.front, front_twist[2], front_demand, step)
+        rear_torque = _alone(p.rear, now.rear, later.rear, rear_twist[2], rear_demand, step)
     _finish(p.front, now.front, later.front, front_out, front_twist, front_demand, front_torque, step)
     _finish(p.rear, now.rear, later.rear, rear_out, rear_twist, rear_demand, rear_torque, step)
     return front_torque, rear_torque
@@ -126,7 +127,7 @@ def _alone(axle, now, later, twist, demand, step):
 @kernel
 def _finish(axle, now, later, out, twisted, demand, torque, step):
     # the work of the step before is known now; the outputs are those of the state now
-    twist, twist_rate = twisted
+    twist, twist_rate, _ = twisted
     work = now.work + now.torque * step * 0.5 * (now.twist_rate + twist_rate)
     out.energy.work = work
     out.bar.twist, out.bar.torque = twist, torque

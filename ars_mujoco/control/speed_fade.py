@@ -4,6 +4,8 @@ A tire's carcass is damped by rolling: at walking pace the body sways on the tir
 and the loop from the accelerometer over the bars to that sway would feed it.
 """
 
+from pydantic import model_validator
+
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, Quantity
 
@@ -13,6 +15,12 @@ class SpeedFade(Parameters):
 
     begin: Quantity("m/s", ge=0)
     full: Quantity("m/s", gt=0)
+
+    @model_validator(mode="after")
+    def _rises(self):
+        if not self.full > self.begin:
+            raise ValueError(f"full must be greater than begin, {self.begin:g} m/s")
+        return self
 
 
 @kernel

@@ -72,7 +72,7 @@ class CircuitEnergy(Parameters):
 
 
 @kernel
-def substeps(circuit, bar_stiffness: float, outer_gain: float, step: float) -> int:
+def substeps(circuit, bar_stiffness: float, step: float) -> int:
     """Substeps a physics step of `step` s needs, from the circuit's fastest eigenvalues.
 
     The friction's rounding is the stiff one (real, friction slope over inertia); the hydraulic pair is oscillatory.
@@ -85,7 +85,7 @@ def substeps(circuit, bar_stiffness: float, outer_gain: float, step: float) -> i
     )
     leak = (circuit.pump.leakage + circuit.motor.leakage + circuit.relief_valve.conductance) / oil
     valve = 2.0 * circuit.servo_valve.damping * circuit.servo_valve.frequency
-    fastest = max(friction, 2.0 * hydraulic, leak, valve, outer_gain)
+    fastest = max(friction, 2.0 * hydraulic, leak, valve)
     return max(4, math.ceil(step * fastest / (RK4_REAL_LIMIT * STIFFNESS_MARGIN)))
 
 

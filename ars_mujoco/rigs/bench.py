@@ -30,7 +30,13 @@ class Output(Parameters):
 
 OUTPUT = Output
 PARAMETERS = np.dtype(
-    [("stabilizers", stabilizers.PARAMETERS), ("command", SIGNAL), ("ends", SIGNAL), ("arm", "f8"), ("height", "f8")]
+    [
+        ("stabilizers", stabilizers.PARAMETERS),
+        ("command", SIGNAL),
+        ("ends", SIGNAL),
+        ("arm", "f8"),
+        ("ends_height", "f8"),
+    ]
 )
 WORLD = world_dtype(
     PARAMETERS,
@@ -45,26 +51,38 @@ def step(world, mj) -> None:
     """One call of the callback: the ends' twist and the command drive the actuator; mocap bodies show the ends."""
     begin(world, mj.time)
     p, h = world.parameters, world.header.step
-    travel = value(p.ends, mj.time)
+    travel, rate = value(p.ends, mj.time), slope(p.ends, mj.time)
     world.out.ends.travel = travel
-    mj.mocap_pos[2], mj.mocap_pos[5] = p.height + 0.5 * travel, p.height - 0.5 * travel
-    share = travel / p.arm  # the paper's one-arm form of the twist (eq. 26)
-    twist = (math.asin(share), slope(p.ends, mj.time) / (p.arm * math.sqrt(1.0 - share * share)))
+    mj.mocap_pos[2], mj.mocap_pos[5] = p.ends_height + 0.5 * travel, p.ends_height - 0.5 * travel
+    # the ends' motion is given, so the twist to hold is that of the middle of the step
+    twist_rate = rate / (p.arm * math.sqrt(1.0 - (travel / p.arm) ** 2))
+    twist = (one_arm_twist(travel, p.arm), twist_rate, one_arm_twist(value(p.ends, mj.time + 0.5 * h), p.arm))
     front, _ = stabilize_both(
         p.stabilizers, world.now.stabilizers, world.later.stabilizers, world.out.front, world.scratch.rear,
-        mj.time, h, parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0),
+        mj.time, h, parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0, 0.0),
     )  # fmt: skip
     check_finite(world, front, mj.time)
+
+
+@kernel
+def one_arm_twist(travel: float, arm: float) -> float:
+    """Twist (rad) of a bar whose ends are `travel` (m) apart in height: the paper's one-arm form (eq. 26)."""
+    return math.asin(travel / arm)
 
 
 @kernel
 def parabola(signal, time: float, step: float):
     """(c0, c1, c2) of `signal` as c0 + c1 t + c2 t^2 over the step from `time` (s), through three samples.
 
-    The last sample is taken just inside the step, so that a jump at its end belongs to the next.
+    The outer two are taken a little inside the step, so that a jump at an end belongs to one step alone, although the
+    times that MuJoCo adds up are not exactly those that a file states.
     """
-    first, middle = value(signal, time), value(signal, time + 0.5 * step)
-    last = value(signal, time + step * (1.0 - 1e-9))
+    inside = 1e-6 * step
+    first, middle, last = (
+        value(signal, time + inside),
+        value(signal, time + 0.5 * step),
+        value(signal, time + step - inside),
+    )
     return first, (4.0 * middle - 3.0 * first - last) / step, 2.0 * (first - 2.0 * middle + last) / (step * step)
 
 

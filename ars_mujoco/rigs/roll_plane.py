@@ -1,7 +1,5 @@
 """The roll plane: a body that only rolls, pushed by a lateral force (the paper's Fig. 1), both axles active."""
 
-import math
-
 import mujoco
 import numpy as np
 
@@ -18,6 +16,7 @@ from ars_mujoco.signal import SIGNAL, value
 from ars_mujoco.world import begin, check_finite, world_dtype
 
 NAME = "roll_plane"
+NO_SPEED = 100.0  # m/s; the rig has none, and a controller that fades in with speed must act
 
 
 class BodyOutput(Parameters):
@@ -101,7 +100,7 @@ def sense(world, mj) -> None:
     out.sensor.lateral_acceleration, out.sensor.filtered = reading, sensors.lateral_acceleration
     sensors.time, sensors.step = mj.time, max(p.stabilizers.unit.sample_time, h)
     sensors.roll, sensors.roll_rate = out.body.roll, rate
-    sensors.speed = math.inf  # it has none; fast enough for any controller
+    sensors.speed = NO_SPEED
     front, rear = now.stabilizers.front.circuit, now.stabilizers.rear.circuit
     sensors.front_angle, sensors.rear_angle = front.angle, rear.angle
     sensors.front_pressure, sensors.rear_pressure = front.pressure, rear.pressure

@@ -35,7 +35,7 @@ def stabilize_both(
 ):
     """Advance both axles by `step` s; return their bar torques (front, rear) in Nm.
 
-    Commands are (c0, c1, c2) over the step as in `reduced_circuit.advance`; twists are (angle rad, rate rad/s).
+    Commands are (c0, c1, c2) over the step as in `reduced_circuit.advance`; twists as in `axle.stabilize`.
     A continuous unit delays the commanded angle and leaves the outer loop to the substeps; a sampling unit computes the
     outer loop itself and delays the stroke.
     """
@@ -85,11 +85,13 @@ def bar_addresses(model: mujoco.MjModel) -> dict:
 
 @kernel
 def twist(bars, mj, left: int):
-    """Twist of the bar whose left half is number `left` of BARS: (angle rad, rate rad/s)."""
-    return (
-        mj.qpos[int(bars.position[left])] - mj.qpos[int(bars.position[left + 1])],
-        mj.qvel[int(bars.velocity[left])] - mj.qvel[int(bars.velocity[left + 1])],
-    )
+    """Twist of the bar whose left half is number `left` of BARS: (angle rad, rate rad/s, angle held over the step rad).
+
+    A car's twist is held as it is now: MuJoCo's semi-implicit step, too, takes its springs at the start of the step.
+    """
+    angle = mj.qpos[int(bars.position[left])] - mj.qpos[int(bars.position[left + 1])]
+    rate = mj.qvel[int(bars.velocity[left])] - mj.qvel[int(bars.velocity[left + 1])]
+    return angle, rate, angle
 
 
 @kernel

@@ -21,7 +21,7 @@ def set_up(start: Start, cycle: Cycle, actuator: Actuator, controller: Controlle
     stabilizers = parameters.stabilizers
     fill_axle(stabilizers.front, actuator, "front", vehicle.stiffness, 0.0, stabilizers.loop, start.step)
     parameters.command, parameters.ends = manoeuvre.command.signal(), manoeuvre.ends.signal()
-    parameters.arm, parameters.height = vehicle.arm, vehicle.height
+    parameters.arm, parameters.ends_height = vehicle.arm, vehicle.height - vehicle.link_length
     if np.abs(parameters.ends.values).max() >= vehicle.arm:
         raise InputError(f"manoeuvre.ends: the ends move too far; allowed: less than the arm's {vehicle.arm:g} m")
     return start.stored()

@@ -12,24 +12,25 @@ STEP = 1e-3
 
 
 def reference(trim_rate=0.0):
-    """A linear map of 0.02 rad front and 0.01 rad rear, 0.002 rad of roll, over 10 m/s^2."""
+    """A linear map of 0.02 rad front and 0.01 rad rear, 0.002 rad of roll, over 10 m/s^2; in full from 3 m/s on."""
     record = np.zeros(1, PARAMETERS).view(np.recarray)[0]
     record.map.count = 2
     record.map.sensor[1], record.map.front[1], record.map.rear[1], record.map.roll[1] = 10.0, 0.02, 0.01, 0.002
+    record.fade.begin, record.fade.full = 1.0, 3.0
     record.trim.rate, record.trim.limit = trim_rate, 0.05
     return record
 
 
-def commands(record, readings, sample_time, roll=0.0):
+def commands(record, readings, sample_time, roll=0.0, speed=30.0):
     """(front, rear) (n, 2) for the readings of successive steps."""
-    unit, state, sensors = filled(ControlUnit(sample_time=sample_time, delay="0 s")), blank(Sensors), []
-    memory = np.zeros(1, STATE).view(np.recarray)[0]
-    state.step = max(unit.sample_time, STEP)
+    unit, sensors, found = filled(ControlUnit(sample_time=sample_time, delay="0 s")), blank(Sensors), []
+    state = np.zeros(1, STATE).view(np.recarray)[0]
+    sensors.step, sensors.roll, sensors.speed = max(unit.sample_time, STEP), roll, speed
     for i, reading in enumerate(readings):
-        state.time, state.lateral_acceleration, state.roll = i * STEP, reading, roll
-        own_reference(record, unit, memory, state, STEP)
-        sensors.append((float(memory.front), float(memory.rear)))
-    return np.array(sensors)
+        sensors.time, sensors.lateral_acceleration = i * STEP, reading
+        own_reference(record, unit, state, sensors, STEP)
+        found.append((float(state.front), float(state.rear)))
+    return np.array(found)
 
 
 def test_each_axle_gets_its_own_angle():
@@ -46,3 +47,8 @@ def test_roll_outward_of_its_target_winds_both_bars_up(sample_time):
     trimmed = commands(reference(trim_rate=2.0), np.full(500, 5.0), sample_time, roll=0.004)
     untrimmed = np.array([0.01, 0.005])
     assert trimmed[-1] - untrimmed == pytest.approx(2.0 * (0.004 - 0.001) * 0.5, rel=1e-9)
+
+
+def test_at_walking_pace_the_reference_acts_by_its_share():
+    for speed, share in [(0.0, 0.0), (2.0, 0.5), (10.0, 1.0)]:
+        assert commands(reference(), [5.0], "1 ms", speed=speed) == pytest.approx(share * np.array([[0.01, 0.005]]))
