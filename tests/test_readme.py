@@ -1,0 +1,64 @@
+"""What the README shows is what runs."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from ars_mujoco.cli import app
+
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text()
+BLOCKS = re.findall(r"```(\w+)\n(.*?)```", README, re.DOTALL)
+COMMANDS = [
+    line.split("  #")[0].strip()
+    for language, block in BLOCKS
+    if language == "sh"
+    for line in block.splitlines()
+    if line.startswith("ars ")
+]
+LAW, PROGRAM = [block for language, block in BLOCKS if language == "python"]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_of_the_readme_runs(command, tmp_path, monkeypatch):
+    if command == "ars bench":
+        pytest.skip("a benchmark is run by name: it wants an idle machine")
+    monkeypatch.chdir(tmp_path)
+    Path("my_controller.py").write_text(LAW)
+    result = CliRunner().invoke(app, shlex.split(command)[1:])
+    assert result.exit_code == 0, result.output
+
+
+def test_the_controller_of_the_readme_keeps_the_car_nearly_level(tmp_path):
+    from ars_mujoco.inputs import read_inputs
+    from ars_mujoco.simulation import simulate
+    from ars_mujoco.study import simulation_of
+
+    law = tmp_path / "my_controller.py"
+    law.write_text(LAW)
+    settings = ["duration=9 s"]
+    own = simulate(simulation_of(read_inputs("s_curve_120kmh", controller=str(law), settings=settings)))
+    passive = simulate(simulation_of(read_inputs("s_curve_120kmh", actuator="passive", settings=settings)))
+    assert abs(own["body.roll"]).max() < 0.3 * abs(passive["body.roll"]).max()
+
+
+def test_the_program_of_the_readme_runs(capsys):
+    exec(compile(PROGRAM, "README.md", "exec"), {})
+    time, roll = map(float, capsys.readouterr().out.split())
+    assert time == pytest.approx(5.0)
+    assert 0.015 < roll < 0.03
+
+
+def test_the_scripts_of_the_readme_exist_and_run_what_it_says():
+    compare = "ars compare cycles/s_curve_120kmh.yaml --actuators passive,pump_controlled"
+    assert compare in (ROOT / "scripts/run").read_text()
+    assert "pytest" in (ROOT / "scripts/test").read_text()
+    assert "scripts/test" in (ROOT / ".ci/run").read_text()
+
+
+def test_the_picture_of_the_readme_is_there():
+    (picture,) = re.findall(r"!\[.*?\]\((.*?)\)", README)
+    assert (ROOT / picture).is_file()
