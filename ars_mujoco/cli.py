@@ -178,9 +178,29 @@ def _study(cycle, actuators, vehicle, controller, settings, out, as_json) -> Non
     if as_json:
         _print_json({"folder": str(folder), "runs": {each.name: summary(each.recording) for each in results}})
         return
-    rows = [{"metric": name, **{each.name: str(each.metrics[name]) for each in results}} for name in results[0].metrics]
-    _print_table(runs[0].cycle.value.title, rows)
+    rows = [
+        {"metric": name, **{each.name: _cell(each.metrics[name]) for each in results}} for name in results[0].metrics
+    ]
+    measured = [row for row in rows if set(list(row.values())[1:]) != {"-"}]
+    _print_table(runs[0].cycle.value.title, measured)
+    print("\n".join(_remarks(results)))
     print(f"Look at it: ars view {folder if len(runs) > 1 else folder / results[0].name}")
+
+
+def _cell(value: Any) -> str:
+    """A metric in the table; why there is none is said below it."""
+    return "-" if value.value is None else str(value)
+
+
+def _remarks(results) -> Iterator[str]:
+    """What the metrics have to say, each remark once, with the runs and metrics it is about."""
+    about: dict[str, list[str]] = {}
+    for result in results:
+        for name, value in result.metrics.items():
+            if value.note:
+                about.setdefault(value.note, []).append(name if len(results) == 1 else f"{result.name} {name}")
+    for note, names in about.items():
+        yield f"{', '.join(names)}: {note}"
 
 
 def _shipped(kind: Listing) -> list[dict[str, str]]:
