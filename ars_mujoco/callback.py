@@ -47,7 +47,7 @@ _SILENCE = ctypes.CFUNCTYPE(None, ctypes.c_char_p)(lambda _: None)
 def installed(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None):
     """Install `rig`'s callback for the length of a `with` block, and restore what was there.
 
-    `data` is used to hold the struct offsets against; `law` is a `control.law.Law` in place of the shipped controller.
+    `data` is used to hold the struct offsets against; `law` is a `law.Law` in place of the shipped controller.
     Yields whether the callback is a Python function, which only a loop in Python may drive.
     Raises ArsError for an integrator that calls more than once a step, and for a model not built for this rig.
     """

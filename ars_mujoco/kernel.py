@@ -12,10 +12,10 @@ import os
 import sys
 import tempfile
 from functools import cache, cached_property
+from importlib.metadata import version
 from pathlib import Path
 
 import llvmlite.binding
-import mujoco
 import numba
 
 interpreted = bool(numba.config.DISABLE_JIT)  # numba reads the environment once, at its import
@@ -67,7 +67,7 @@ def cache_path() -> Path:
     package = Path(__file__).parent
     for source in sorted(package.rglob("*.py")):
         digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes() + b"\0")
-    machine = (sys.version, numba.__version__, mujoco.mj_versionString(), llvmlite.binding.get_host_cpu_name())
+    machine = (sys.version, numba.__version__, version("mujoco-core"), llvmlite.binding.get_host_cpu_name())
     digest.update(repr((*machine, llvmlite.binding.get_host_cpu_features().flatten())).encode())
     base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "ars_mujoco"
     folder = base / digest.hexdigest()[:20]

@@ -10,9 +10,9 @@ import numpy as np
 from ars_mujoco import world as worlds
 from ars_mujoco.callback import installed
 from ars_mujoco.channels import channels
-from ars_mujoco.control.law import Law
 from ars_mujoco.errors import SimulationError
 from ars_mujoco.events import Watch
+from ars_mujoco.law import Law
 from ars_mujoco.native_loop import advance
 from ars_mujoco.recording.recording import Recording, joined, scene_of
 

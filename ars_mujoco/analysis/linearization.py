@@ -74,4 +74,3 @@ def _slope(circuit, stiffness, nudge, command) -> np.ndarray:
 @entry
 def _rates(circuit, stiffness, state, stroke_command):
     return rates(circuit, stiffness, state, stroke_command, 0.0)[0]
-

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ars_mujoco.actuators.actuator import PumpControlled
-from ars_mujoco.control.bar_angle_loop import BarAngleLoop, outer_gain
+from ars_mujoco.control.bar_angle_loop import outer_gain
 from ars_mujoco.control.control_unit import ControlUnit
 from ars_mujoco.errors import InputError
 from ars_mujoco.inputs import Inputs

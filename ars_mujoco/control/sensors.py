@@ -1,7 +1,9 @@
 """Sensors: what a controller is given at each of its samples."""
 
 from ars_mujoco.channels import Signal
-from ars_mujoco.parameters import Parameters
+from ars_mujoco.parameters import Parameters, record_dtype
+
+MEMORY = 32  # numbers a controller may keep from sample to sample
 
 
 class Sensors(Parameters):
@@ -19,3 +21,6 @@ class Sensors(Parameters):
     rear_angle: Signal("rad", "angle of the rear motor")
     front_pressure: Signal("Pa", "pressure difference across the front motor")
     rear_pressure: Signal("Pa", "pressure difference across the rear motor")
+
+
+SENSORS = record_dtype(Sensors)

@@ -5,9 +5,9 @@ import numpy as np
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.accelerometer import Accelerometer, AccelerometerState, low_pass, specific_force
 from ars_mujoco.control.control_unit import samples_now
-from ars_mujoco.control.law import MEMORY
 from ars_mujoco.control.reference_map import REFERENCE_MAP, bar_angles
 from ars_mujoco.control.roll_trim import RollTrim, trim
+from ars_mujoco.control.sensors import MEMORY
 from ars_mujoco.control.speed_fade import SpeedFade, fade
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, record_dtype

@@ -6,7 +6,7 @@ import numpy as np
 from ars_mujoco.actuators.axle import AxleOutput
 from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
-from ars_mujoco.control.law import SENSORS
+from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.kernel import NativeCallback, entry, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import reference, stabilizers

@@ -6,8 +6,8 @@ from pathlib import Path
 from ars_mujoco.actuators.actuator import Actuator
 from ars_mujoco.control.control_unit import check_timing
 from ars_mujoco.control.controller import Controller
-from ars_mujoco.control.law import law
 from ars_mujoco.cycle import Cycle
+from ars_mujoco.law import law
 from ars_mujoco.parameters import fill
 from ars_mujoco.setup.start import Start
 from ars_mujoco.simulation import Simulation

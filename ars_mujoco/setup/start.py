@@ -6,8 +6,8 @@ from types import ModuleType
 import mujoco
 import numpy as np
 
-from ars_mujoco.control.law import Law
 from ars_mujoco.cycle import Cycle
+from ars_mujoco.law import Law
 from ars_mujoco.simulation import Simulation
 from ars_mujoco.world import NUMERIC, new_world
 

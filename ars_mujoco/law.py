@@ -16,15 +16,11 @@ import numba
 
 from ars_mujoco.callback import SIGNATURE, world_address
 from ars_mujoco.control.control_unit import samples_now
-from ars_mujoco.control.sensors import Sensors
+from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.errors import InputError
 from ars_mujoco.kernel import JIT_OPTIONS, NativeCallback, interpreted
-from ars_mujoco.parameters import record_dtype
 
 FUNCTION = "command"
-MEMORY = 32  # numbers a law may keep from sample to sample
-SENSORS = record_dtype(Sensors)
-
 _ARGUMENTS = (numba.from_dtype(SENSORS), numba.types.Array(numba.float64, 1, "C"))
 
 

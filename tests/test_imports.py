@@ -1,0 +1,17 @@
+"""The kernels know nothing of what is around them."""
+
+import subprocess
+import sys
+
+import pytest
+
+KERNELS = ("hydraulics.reduced_circuit", "control.bar_angle_loop", "control.accelerometer", "tires.tire", "driver")
+
+
+@pytest.mark.parametrize("kernel", KERNELS)
+def test_a_kernel_imports_no_simulator_no_viewer_and_no_table(kernel):
+    program = (
+        f"import sys, ars_mujoco.{kernel}; print({{'mujoco', 'rerun', 'pyarrow', 'typer'}} & set(sys.modules))"
+    )
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert result.stdout.strip() == "set()"
