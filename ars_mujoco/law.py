@@ -19,6 +19,7 @@ from ars_mujoco.control.control_unit import samples_now
 from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.errors import InputError
 from ars_mujoco.kernel import JIT_OPTIONS, NativeCallback, interpreted
+from ars_mujoco.world import LAW_FAILED, stop
 
 FUNCTION = "command"
 _ARGUMENTS = (numba.from_dtype(SENSORS), numba.types.Array(numba.float64, 1, "C"))
@@ -29,13 +30,14 @@ class Law:
 
     def __init__(self, path: Path):
         self.path, self.function = path, _load(path)
+        self.failure = ""  # what it raised, where that is known
         self.is_native = not interpreted and self._compiles()
 
     def _compiles(self) -> bool:
         try:
             numba.njit(_ARGUMENTS, **JIT_OPTIONS)(self.function)
-        except numba.core.errors.NumbaError as error:
-            reason = str(error).splitlines()[1]  # the first line names the compiler's stage
+        except Exception as error:  # noqa: BLE001 (numba's own, or what its insides run into)
+            reason = str(error).splitlines()[:2][-1]  # the first of several lines names the compiler's stage
             warnings.warn(
                 f"{self.path}: {FUNCTION}() does not compile, so it runs in Python and every step takes several times"
                 f" as long: {reason}",
@@ -54,8 +56,11 @@ class Law:
             world = world_at(world_address(model, data))
             parameters, reference, sensors = world.parameters, world.later.reference, world.scratch.sensors
             if samples_now(parameters.stabilizers.unit, sensors.time, world.header.step):
-                front, rear = command(sensors, reference.memory)
-                reference.front, reference.rear = front, rear
+                try:
+                    front, rear = command(sensors, reference.memory)
+                    reference.front, reference.rear = front, rear
+                except Exception:
+                    stop(world, LAW_FAILED, sensors.time)
             act(model, data)
 
         return NativeCallback(SIGNATURE, control, cached=False)
@@ -64,7 +69,11 @@ class Law:
         """The same from Python."""
         reference, sensors = world.later.reference, world.scratch.sensors
         if samples_now(world.parameters.stabilizers.unit, sensors.time, world.header.step):
-            reference.front, reference.rear = self.function(sensors, reference.memory)
+            try:
+                reference.front, reference.rear = self.function(sensors, reference.memory)
+            except Exception as error:
+                self.failure = f": {type(error).__name__}: {error}"
+                stop(world, LAW_FAILED, sensors.time)
 
 
 @cache

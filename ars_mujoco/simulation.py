@@ -102,6 +102,9 @@ def _check(simulation: Simulation, data: mujoco.MjData, chunk: Recording) -> Non
         raise SimulationError(
             f"time jumped to {time:g} s: the simulation steps by {header.step:g} s only", time, "time"
         )
+    if header.status == worlds.LAW_FAILED:
+        message = f"{simulation.law.path}: the controller failed at {time:g} s{simulation.law.failure}"
+        raise SimulationError(message, time, "front.bar.command")
     bad = ~np.isfinite(chunk.values[-1])
     channel = list(chunk.channels)[int(np.argmax(bad))] if bad.any() else "body.roll"
     samples = {channel: chunk[channel][-LAST_SAMPLES:].tolist()}

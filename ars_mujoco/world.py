@@ -21,7 +21,7 @@ VERSION = 1.0  # of the layout below
 NUMERIC = "ars_mujoco_world"  # the custom numeric that holds the initial world
 
 # status of a run, written by the callback and turned into an error by the loop
-RUNNING, TIME_JUMP, NOT_FINITE = 0.0, 1.0, 2.0
+RUNNING, TIME_JUMP, NOT_FINITE, LAW_FAILED = 0.0, 1.0, 2.0, 3.0
 
 HEADER = np.dtype(
     [
