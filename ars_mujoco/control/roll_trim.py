@@ -1,4 +1,4 @@
-"""Roll trim: a slow correction of the bar angles by the measured roll, for what the statics do not know (optional)."""
+"""Roll trim: what the bars add by the measured roll, slowly for what the statics do not know, quickly to damp."""
 
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, Quantity
@@ -6,13 +6,20 @@ from ars_mujoco.saturation import saturate
 
 
 class RollTrim(Parameters):
-    """Integral controller on roll; off with a rate of zero."""
+    """Integral of the roll's error, off with a rate of zero, and damping in proportion to the roll rate."""
 
     rate: Quantity("1/s", ge=0)  # bar angle a second, over roll error
-    limit: Quantity("rad", ge=0)  # of the correction
+    limit: Quantity("rad", ge=0)  # of the integral
+    damping: Quantity("s", ge=0)  # bar angle over roll rate
 
 
 @kernel
 def trim(settings, correction: float, roll_error: float, step: float) -> float:
-    """The correction (rad of bar angle) one step later; `roll_error` (rad) is measured less wanted."""
+    """The integral (rad of bar angle) one step later; `roll_error` (rad) is measured less wanted."""
     return saturate(correction + settings.rate * roll_error * step, settings.limit)
+
+
+@kernel
+def roll_damping(settings, roll_rate: float) -> float:
+    """Bar angle (rad) against a roll rate (rad/s)."""
+    return settings.damping * roll_rate

@@ -6,7 +6,7 @@ from ars_mujoco.channels import Signal
 from ars_mujoco.control.accelerometer import Accelerometer, AccelerometerState, low_pass, specific_force
 from ars_mujoco.control.control_unit import samples_now
 from ars_mujoco.control.reference_map import REFERENCE_MAP, bar_angles
-from ars_mujoco.control.roll_trim import RollTrim, trim
+from ars_mujoco.control.roll_trim import RollTrim, roll_damping, trim
 from ars_mujoco.control.sensors import MEMORY
 from ars_mujoco.control.speed_fade import SpeedFade, fade
 from ars_mujoco.kernel import kernel
@@ -57,10 +57,12 @@ def read_accelerometer(p, now, later, sensors, velocity, axis, frame_acceleratio
 
 @kernel
 def own_reference(p, unit, later, sensors, step: float) -> None:
-    """The shipped controller: the target map of this very car, the trim on measured roll, faded in with speed."""
+    """The shipped controller: target map of this very car and trim, faded in with speed, and roll damping."""
     if samples_now(unit, sensors.time, step):
         front, rear, roll = bar_angles(p.map, sensors.lateral_acceleration)
         correction = trim(p.trim, later.memory[0], sensors.roll - roll, sensors.step)
         later.memory[0] = correction
         share = fade(p.fade, sensors.speed)
-        later.front, later.rear = share * (front + correction), share * (rear + correction)
+        damping = roll_damping(p.trim, sensors.roll_rate)
+        later.front = share * (front + correction) + damping
+        later.rear = share * (rear + correction) + damping

@@ -1,11 +1,11 @@
-"""The roll trim: an integrator with a limit."""
+"""The roll trim: an integrator with a limit, and damping."""
 
 import pytest
 from records import filled
 
-from ars_mujoco.control.roll_trim import RollTrim, trim
+from ars_mujoco.control.roll_trim import RollTrim, roll_damping, trim
 
-TRIM = filled(RollTrim(rate="0.5 1/s", limit="2 deg"))
+TRIM = filled(RollTrim(rate="0.5 1/s", limit="2 deg", damping="0.07 s"))
 LIMIT = 0.03490658503988659  # rad
 
 
@@ -28,4 +28,9 @@ def test_the_correction_is_limited_and_does_not_wind_up(side):
 
 
 def test_a_rate_of_zero_turns_it_off():
-    assert trimmed(filled(RollTrim(rate="0 1/s", limit="2 deg")), 0.1, 5.0) == 0.0
+    assert trimmed(filled(RollTrim(rate="0 1/s", limit="2 deg", damping="0.07 s")), 0.1, 5.0) == 0.0
+
+
+def test_damping_turns_the_bars_against_the_roll_rate():
+    assert roll_damping(TRIM, 0.2) == pytest.approx(0.07 * 0.2)
+    assert roll_damping(TRIM, -0.2) == -roll_damping(TRIM, 0.2)

@@ -6,8 +6,10 @@ import pytest
 import shipped
 
 from ars_mujoco.callback import installed
+from ars_mujoco.inputs import read_inputs
 from ars_mujoco.metrics import G
 from ars_mujoco.simulation import simulate
+from ars_mujoco.study import simulation_of
 
 S_CURVE, STEP_STEER, CIRCLE, BUMP = "s_curve_120kmh", "step_steer_iso7401", "steady_circle_iso4138", "single_wheel_bump"
 ROLL_PLANE = "roll_plane_step"
@@ -180,3 +182,11 @@ def test_the_coupling_converges_at_least_in_first_order():
     # against a reference of 0.25 ms, a first-order error falls by (2 - 0.25)/(1 - 0.25) = 2.3, then by 3
     assert (errors[0.002] / errors[0.001] > 2.0).all()
     assert (errors[0.001] / errors[0.0005] > 2.0).all()
+
+
+@pytest.mark.parametrize("damping", ["0 s", "0.07 s"])
+def test_roll_damping_gives_back_what_the_delay_takes(damping):
+    recording = simulate(simulation_of(read_inputs(BUMP, settings=[f"controller.reference.trim.damping={damping}"])))
+    late = np.degrees(abs(recording["body.roll"][recording.time > 3.0])).max()
+    print(f"roll from 2 s after the bump on, damping {damping}: {late:.3f} deg")
+    assert late > 0.05 if damping == "0 s" else late < 0.02
