@@ -165,6 +165,35 @@ def bench(as_json: Json = False) -> None:
     print(f"recording    {cost.recording_ratio:.3f} times the run without its .rrd")
 
 
+@app.command()
+def analyze(
+    actuator: Annotated[str | None, typer.Option(help="Name or path; else pump_controlled.")] = None,
+    controller: Annotated[str | None, typer.Option(help="Name or path; else verification.")] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="A value of a file: actuator.front.pump.speed='1500 rpm'."),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder of the results; else runs/analyze.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Linear theory of the front actuator on the bench: poles, margins, responses and the gain's stable region."""
+    try:
+        from ars_mujoco.analysis import analyze as analysis
+    except ModuleNotFoundError as missing:
+        extra = "pip install 'ars_mujoco[analysis]'"
+        raise InputError(f"ars analyze needs the package '{missing.name}'; it comes with {extra}") from None
+    inputs = analysis.read_analyzed(actuator, controller, settings or [])
+    folder = out or RUNS / "analyze"
+    with _progress() as progress:
+        results = analysis.analyze(inputs, folder, progress)
+    if as_json:
+        _print_json({"folder": str(folder), "analyses": results})
+        return
+    rows = [{key: row[key] for key in ("quantity", "value", "paper")} for row in analysis.headlines(results)]
+    _print_table(f"{inputs.actuator.name} on the bench, {inputs.controller.name}", rows)
+    print(f"Figures and numbers: {folder}")
+
+
 def _study(cycle, actuators, vehicle, controller, settings, out, as_json) -> None:
     """Run, write and show a cycle with one or several actuators."""
     from ars_mujoco.inputs import read_compared

@@ -36,7 +36,7 @@ class Law:
     def _compiles(self) -> bool:
         try:
             numba.njit(_ARGUMENTS, **JIT_OPTIONS)(self.function)
-        except Exception as error:  # noqa: BLE001 (numba's own, or what its insides run into)
+        except Exception as error:
             reason = str(error).splitlines()[:2][-1]  # the first of several lines names the compiler's stage
             warnings.warn(
                 f"{self.path}: {FUNCTION}() does not compile, so it runs in Python and every step takes several times"

@@ -27,6 +27,11 @@ def label(ax: Axes, title: str, x: str, y: str, legend: bool = True) -> None:
         ax.legend(fontsize=8, frameon=False)
 
 
+def legend_beside(figure: Figure, ax: Axes) -> None:
+    """The legend of `ax` to the right of all of the figure's axes."""
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside right upper", fontsize=8, frameon=False)
+
+
 def save(figure: Figure, folder: Path, name: str) -> list[Path]:
     """Write `figure` as `name`.png and `name`.svg into `folder`; returns their paths."""
     paths = [folder / f"{name}.{kind}" for kind in FORMATS]

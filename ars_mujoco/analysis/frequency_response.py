@@ -1,7 +1,11 @@
 """Frequency response of the closed loop: the linear one, and the running circuit's own to sines of several amplitudes.
 
 The running circuit is driven by `reduced_circuit.advance` like on the bench, with every saturation, with and without
-dry friction; the response is the fundamental of the angle over whole periods, once the start has died away.
+dry friction; the response is the fundamental of the angle over whole periods, once the start has died away. Both take
+the control unit as continuous; what its sampling costs is in `margins`.
+
+Large sines meet two limits: the pump's flow, which takes the bandwidth down, and the spool's speed. At
+sqrt(Xdot_max ydot_max), where a full stroke back and forth needs all of it, the phase jumps down by some 80 deg.
 """
 
 import math
@@ -10,7 +14,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from ars_mujoco.analysis.figure import ACCENT, SHADES, label
+from ars_mujoco.analysis.figure import ACCENT, SHADES, label, legend_beside
 from ars_mujoco.analysis.linearization import closed_loop
 from ars_mujoco.analysis.loop import Loop
 from ars_mujoco.analysis.margins import bandwidth
@@ -19,9 +23,10 @@ from ars_mujoco.kernel import entry
 from ars_mujoco.parameters import record_dtype
 
 AMPLITUDES = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)  # deg
-FREQUENCIES = np.geomspace(0.5, 60.0, 32)  # Hz
+DRAWN = (0.1, 0.5, 1.0, 2.0, 5.0, 10.0)
+FREQUENCIES = np.geomspace(0.5, 60.0, 40)  # Hz
 STEP = 1e-3  # s, the longest over which the command is a parabola
-SETTLING, MEASURED = 0.5, 0.25  # s, at least; and never less than two periods
+SETTLING, MEASURED = 1.0, 0.5  # s, at least; and never less than two periods
 FRICTIONS = {"with_dry_friction": True, "without_dry_friction": False}
 UNITS = {"frequency": "Hz", "magnitude": "dB", "phase": "deg", "amplitude": "deg", "bandwidth": "Hz"}
 
@@ -56,8 +61,7 @@ def compute(loop: Loop) -> dict[str, Any]:
         "linear": told(linear(loop, FREQUENCIES)),
         **{
             name: [
-                {"amplitude": amplitude}
-                | told(measured(loop if dry else smooth, math.radians(amplitude), FREQUENCIES))
+                {"amplitude": amplitude} | told(measured(loop if dry else smooth, math.radians(amplitude), FREQUENCIES))
                 for amplitude in AMPLITUDES
             ]
             for name, dry in FRICTIONS.items()
@@ -79,16 +83,17 @@ def draw(result: dict[str, Any]) -> Figure:
     figure = Figure(figsize=(10.0, 6.0), layout="constrained")
     axes = figure.subplots(2, 2, sharex=True, sharey="row")
     for column, name in zip(axes.T, reversed(FRICTIONS), strict=True):
+        drawn = [row for row in result[name] if row["amplitude"] in DRAWN]
         for ax, quantity in zip(column, ("magnitude", "phase"), strict=True):
-            for i, row in enumerate(each for each in result[name] if each["amplitude"] in (0.1, 0.5, 1.0, 2.0, 5.0, 10.0)):
-                shade, marker = SHADES[i % len(SHADES)], "os^vDx"[i]
+            for row, shade, marker in zip(drawn, (*SHADES, SHADES[0]), "os^vDx", strict=True):
                 ax.semilogx(
                     result["frequency"], row[quantity], color=shade, lw=0.8, marker=marker, ms=3, mfc="none",
                     label=f"{row['amplitude']:g} deg",
                 )  # fmt: skip
             ax.semilogx(result["frequency"], result["linear"][quantity], color=ACCENT, lw=1.6, label="linear")
         label(column[0], f"Closed loop, {name.replace('_', ' ')}", "", "angle over command (dB)", legend=False)
-        label(column[1], "", "frequency (Hz)", "phase (deg)", legend=name == "with_dry_friction")
+        label(column[1], "", "frequency (Hz)", "phase (deg)", legend=False)
+    legend_beside(figure, axes[0, 0])
     axes[0, 0].set_ylim(-40.0, 5.0)
     axes[1, 0].set_ylim(-270.0, 10.0)
     return figure

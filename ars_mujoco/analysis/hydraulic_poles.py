@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ars_mujoco.analysis.figure import DARK, LIGHT, MIDDLE_GREY, label
+from ars_mujoco.analysis.figure import DARK, LIGHT, MIDDLE_GREY, label, legend_beside
 from ars_mujoco.analysis.linearization import hydraulic_matrix
 from ars_mujoco.analysis.loop import Loop
 from ars_mujoco.analysis.parameter_box import PLANT, Point, grid, one_at_a_time
@@ -43,17 +43,17 @@ def headline(result: dict[str, Any]) -> list[dict[str, str]]:
     return [
         {
             "quantity": f"hydraulic {name}, {way.replace('_', ' ')}",
-            "value": "{:.{d}f} to {:.{d}f} {}".format(*result[way][name], unit, d=digits),
-            "paper": "{:.{d}f} to {:.{d}f}".format(*PAPER[name], d=digits),
+            "value": "{:.{d}f} to {:.{d}f}{}".format(*result[way][name], unit, d=digits),
+            "paper": "{:.{d}f} to {:.{d}f}{}".format(*PAPER[name], unit, d=digits),
         }
         for way in ("full_box", "one_at_a_time")
-        for name, unit, digits in (("frequency", "rad/s", 0), ("damping", "", 3))
+        for name, unit, digits in (("frequency", " rad/s", 0), ("damping", "", 3))
     ]
 
 
 def draw(result: dict[str, Any]) -> Figure:
     """Damping over frequency, with the paper's range as a box."""
-    figure = Figure(figsize=(6.4, 4.4), layout="constrained")
+    figure = Figure(figsize=(8.0, 4.4), layout="constrained")
     ax = figure.subplots()
     for way, text, style in (
         ("full_box", "Table 2, full box", {"color": LIGHT, "s": 7}),
@@ -63,10 +63,11 @@ def draw(result: dict[str, Any]) -> Figure:
     own = result["own"]
     ax.scatter(own["frequency"], own["damping"], marker="+", s=120, color=DARK, label="this actuator")
     (low, high), (least, most) = PAPER["frequency"], PAPER["damping"]
-    ax.add_patch(
-        Rectangle((low, least), high - low, most - least, fill=False, ec=MIDDLE_GREY, ls="--", label="Table 3 as printed")
-    )
-    label(ax, "Hydraulic poles over the uncertain parameters", "natural frequency (rad/s)", "damping ratio (1)")
+    size = {"width": high - low, "height": most - least}
+    ax.add_patch(Rectangle((low, least), **size, fill=False, ec=MIDDLE_GREY, ls="--", label="Table 3 as printed"))
+    title = "Hydraulic poles over the uncertain parameters"
+    label(ax, title, "natural frequency (rad/s)", "damping ratio (1)", legend=False)
+    legend_beside(figure, ax)
     return figure
 
 

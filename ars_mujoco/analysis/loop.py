@@ -45,17 +45,15 @@ class Loop:
     def at(self, point: Mapping[str, float]) -> "Loop":
         """The loop at a point of Table 2's box: new values (SI) by the names of `parameter_box.TABLE_2`.
 
-        The leakage of the whole circuit, k_Li, is split between pump and motor as it was.
+        The leakage of the whole circuit, k_Li, is split between pump and motor as it was (evenly where there was none).
         """
         circuit = self.circuit.copy()
         for name, value in point.items():
             match name:
                 case "leakage":
-                    scale = value / (circuit.pump.leakage + circuit.motor.leakage)
-                    circuit.pump.leakage, circuit.motor.leakage = (
-                        scale * circuit.pump.leakage,
-                        scale * circuit.motor.leakage,
-                    )
+                    whole = circuit.pump.leakage + circuit.motor.leakage
+                    share = circuit.pump.leakage / whole if whole > 0.0 else 0.5
+                    circuit.pump.leakage, circuit.motor.leakage = share * value, (1.0 - share) * value
                 case "capacitance":
                     circuit.line.capacitance = value
                 case "inertia" | "viscous_friction":

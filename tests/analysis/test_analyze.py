@@ -1,0 +1,77 @@
+"""The command `ars analyze`."""
+
+import json
+import sys
+
+import pytest
+from typer.testing import CliRunner
+
+from ars_mujoco import cli
+from ars_mujoco.analysis import frequency_response, margins
+from ars_mujoco.analysis.analyze import ANALYSES, read_analyzed
+from ars_mujoco.analysis.loop import loop_of
+from ars_mujoco.errors import InputError
+
+
+@pytest.fixture
+def analyze(monkeypatch, tmp_path):
+    """Run `ars analyze` in an empty folder; returns stdout."""
+    monkeypatch.chdir(tmp_path)
+    return lambda *arguments: CliRunner().invoke(cli.app, ["analyze", *arguments], catch_exceptions=False).stdout
+
+
+def test_it_writes_numbers_and_figures_of_every_analysis(analyze, monkeypatch, tmp_path):
+    monkeypatch.setattr(frequency_response, "FREQUENCIES", frequency_response.FREQUENCIES[10::10])
+    printed = json.loads(analyze("--set", "controller.loop.gain=30 1/rad", "--json"))
+    folder = tmp_path / printed["folder"]
+    assert {path.name for path in folder.iterdir()} == {
+        f"{name}.{kind}" for name in ANALYSES for kind in ("json", "png", "svg")
+    }
+    for name in ANALYSES:
+        numbers = json.loads((folder / f"{name}.json").read_text())
+        assert numbers == printed["analyses"][name]
+        assert numbers["units"]
+        assert numbers["inputs"]["controller"]["overrides"] == ["--set controller.loop.gain=30 1/rad"]
+    assert printed["analyses"]["margins"]["gain"]["value"] == 30.0
+
+
+def test_it_prints_a_short_table(analyze, monkeypatch):
+    monkeypatch.setattr("ars_mujoco.analysis.analyze.ANALYSES", {"stable_region": ANALYSES["stable_region"]})
+    out = analyze("--out", "here")
+    assert "under 95.8 1/rad" in out
+    assert "Figures and numbers: here" in out
+
+
+def test_twice_the_speed_with_half_the_gain_has_the_same_margins():
+    nominal, fast = (
+        margins.compute(loop_of(read_analyzed(None, None, settings)))["rows"][0]
+        for settings in ([], ["controller.loop.gain=30 1/rad", "actuator.front.pump.speed=6000 rpm"])
+    )
+    assert fast["gain_margin"] == pytest.approx(nominal["gain_margin"], rel=1e-6)
+
+
+def test_the_controller_s_own_timing_is_among_the_margins():
+    loop = loop_of(read_analyzed(None, "cascade", ["controller.unit.delay=7 ms"]))
+    last = margins.compute(loop)["rows"][-1]
+    assert (last["sample_time"], last["delay"]) == (1e-3, 7e-3)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error"),
+    [
+        (["--actuator", "passive"], "actuator 'passive' has no loop to analyse; allowed: pump_controlled"),
+        (["--set", "duration=3 s"], "--set duration=3 s: an analysis drives no cycle; allowed: actuator.KEY"),
+    ],
+)
+def test_what_cannot_be_analysed_is_refused_in_one_line(analyze, arguments, error):
+    with pytest.raises(InputError, match=error):
+        analyze(*arguments)
+
+
+def test_a_missing_package_is_named_with_the_extra_that_brings_it(analyze, monkeypatch):
+    for name in [each for each in sys.modules if each.startswith("ars_mujoco.analysis")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.delattr("ars_mujoco.analysis")
+    monkeypatch.setitem(sys.modules, "control", None)
+    with pytest.raises(InputError, match=r"'control'.*ars_mujoco\[analysis\]"):
+        analyze()
