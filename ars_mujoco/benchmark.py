@@ -13,9 +13,9 @@ import mujoco
 import numpy as np
 
 from ars_mujoco.callback import installed
-from ars_mujoco.native_loop import advance
 from ars_mujoco.recording.folder import RunFolder
-from ars_mujoco.simulation import FRAME, Simulation, empty_recording, simulate
+from ars_mujoco.sampler import Sampler
+from ars_mujoco.simulation import Simulation, empty_recording, simulate
 
 ROUND = 1000  # steps
 RECORDED = 9  # whole runs, with and without a recording
@@ -38,16 +38,13 @@ class Cost:
 def measure(simulation: Simulation, rounds: int = 60) -> Cost:
     """The cost of a step of `simulation`, from `rounds` interleaved rounds, and of writing its recording."""
     model, data = simulation.model, simulation.start()
-    channels = len(empty_recording(simulation).channels)
-    stride, out_slot = round(FRAME / model.opt.timestep), simulation.rig.WORLD.fields["out"][1] // 8
-    times, values = np.empty(ROUND), np.empty((ROUND, channels))
-    poses = np.empty((ROUND // stride + 1, model.nbody, 7))
+    sampler = Sampler(simulation.rig, model, data, empty_recording(simulation))
     spec = mujoco.mjtState.mjSTATE_INTEGRATION
     state = np.empty(mujoco.mj_stateSize(model, spec))
 
     def closed_loop() -> None:
         with installed(simulation.rig, model, data):
-            _timed(lambda: advance(model, data, times, values, poses, stride, out_slot, 0, False), closed)
+            _timed(lambda: sampler.steps(ROUND), closed)
 
     def bare() -> None:
         _timed(lambda: mujoco.mj_step(model, data, ROUND), open_)

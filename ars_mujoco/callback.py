@@ -19,7 +19,7 @@ from numba.extending import intrinsic
 from ars_mujoco import mujoco_layout
 from ars_mujoco.errors import ArsError
 from ars_mujoco.kernel import interpreted, kernel
-from ars_mujoco.world import MAGIC, VERSION
+from ars_mujoco.world import HEADER, MAGIC, OTHER_LAYOUT, layout_version, stop
 
 # the fields of mjData a rig reads and writes, flat float64 arrays
 Fields = namedtuple(
@@ -36,6 +36,7 @@ _QFRC, _XFRC, _MOCAP = _DATA["qfrc_applied"], _DATA["xfrc_applied"], _DATA["moca
 _XPOS, _XMAT, _SITE = _DATA["xpos"], _DATA["xmat"], _DATA["site_xpos"]
 _XANCHOR, _XAXIS = _DATA["xanchor"], _DATA["xaxis"]
 _NUSERDATA, _NNUMERICDATA, _NUMERIC = _MODEL["nuserdata"], _MODEL["nnumericdata"], _MODEL["numeric_data"]
+_STATUS = HEADER.names.index("status")
 _NO_BOUND = 1 << 30  # the arrays below are not bounds-checked; their true lengths are the model's
 
 
@@ -53,11 +54,8 @@ def installed(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None):
     """
     if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
         raise ArsError("integrator RK4 is refused: it evaluates forces four times a step, the hydraulics advance once")
-    carried = model.numeric_data[-model.nuserdata :]
-    if model.nuserdata * 8 != rig.WORLD.itemsize or tuple(carried[:2]) != (MAGIC, VERSION):
-        raise ArsError(
-            f"this model was not built for the rig '{rig.NAME}': it carries no world of its layout {VERSION:g}"
-        )
+    if not _carries(model, rig):
+        raise ArsError(f"this model was not built for the rig '{rig.NAME}': it carries no world of its layout")
     mujoco_layout.validate(model, data)
     python = interpreted or law is not None and not law.is_native
     native = law.callback(rig) if law and not python else rig.CALLBACK
@@ -72,6 +70,14 @@ def installed(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None):
         mujoco.set_mju_user_warning(warned_before)
 
 
+def _carries(model: mujoco.MjModel, rig) -> bool:
+    """Whether `model` has a world of `rig` as its userdata and as its last custom numeric."""
+    size = rig.WORLD.itemsize // 8
+    if model.nuserdata != size or model.nnumericdata < size:
+        return False
+    return tuple(model.numeric_data[-size:][:2]) == (MAGIC, layout_version(rig.WORLD))
+
+
 def c_function(address: int):
     """The ctypes function of a compiled callback."""
     return ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(address)
@@ -81,9 +87,14 @@ def python_callback(rig, law=None):
     """The same callback from Python: for debugging, and for a controller that does not compile."""
 
     def control(model, data):
+        if not _carries(model, rig):
+            return
         world = np.asarray(data.userdata).view(rig.WORLD).view(np.recarray)
         if world[0].header.magic != MAGIC:
             data.userdata[:] = model.numeric_data[-model.nuserdata :]
+        if world[0].header.version != layout_version(rig.WORLD):
+            stop(world[0], OTHER_LAYOUT, data.time)
+            return
         if not interpreted:  # only the law is in Python
             rig.native_sense(model._address, data._address)
             law.apply(world[0])
@@ -149,16 +160,26 @@ def record_at(dtype: np.dtype):
 
 
 @kernel
-def world_address(model: int, data: int) -> int:
-    """Address of the world in userdata, initialised from the model's last custom numeric where its magic is absent."""
+def world_address(model: int, data: int, size: int, version: float) -> int:
+    """Address of the world in userdata, `size` numbers of the layout `version`, or 0 where the model is another's.
+
+    Where the magic is absent, as after a reset, the world is initialised from the model's last custom numeric. A world
+    of another layout, as a state from another release holds it, is left alone but for its status.
+    """
+    first = word(model + _NNUMERICDATA) - size
+    if word(model + _NUSERDATA) != size or first < 0:
+        return 0
+    initial = carray(doubles(word(model + _NUMERIC)), (_NO_BOUND,))
+    if initial[first] != MAGIC or initial[first + 1] != version:
+        return 0
     address = word(data + _USERDATA)
     userdata = carray(doubles(address), (_NO_BOUND,))
     if userdata[0] != MAGIC:
-        count = word(model + _NUSERDATA)
-        first = word(model + _NNUMERICDATA) - count
-        initial = carray(doubles(word(model + _NUMERIC)), (_NO_BOUND,))
-        for i in range(count):
+        for i in range(size):
             userdata[i] = initial[first + i]
+    if userdata[1] != version:
+        userdata[_STATUS] = OTHER_LAYOUT
+        return 0
     return address
 
 

@@ -51,9 +51,9 @@ Json = Annotated[bool, typer.Option("--json", help="A machine-readable result on
 
 def main() -> None:
     """Run the command line; what a user did wrong is one line for each problem on stderr, and exit status 1."""
-    warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
     try:
-        app()
+        with _warnings_in_one_line():
+            app()
     except ArsError as error:
         problems = error.problems if isinstance(error, InputError) else [str(error)]
         sys.exit("\n".join(f"error: {problem}" for problem in problems))
@@ -99,17 +99,18 @@ def check(
     """Drive cycles and hold them to what they expect; exit status 1 where one falls short."""
     from ars_mujoco.expectation import check as failures_of
     from ars_mujoco.inputs import read_compared
-    from ars_mujoco.study import study
+    from ars_mujoco.study import study, told_apart
 
     verdicts = {}
-    for runs, references in [read_compared(cycle, [None]) for cycle in cycles or library.shipped("cycle")]:
+    compared = [read_compared(cycle, [None]) for cycle in cycles or library.shipped("cycle")]
+    names = told_apart(runs[0].cycle.name for runs, _ in compared)
+    for name, (runs, references) in zip(names, compared, strict=True):
         with _progress() as progress:
             (result,) = study(runs, references, None, progress)
-        cycle = runs[0].cycle
-        failures = [str(failure) for failure in failures_of(cycle.value.expect, result.metrics)]
-        verdicts[cycle.name] = {"passed": not failures, "failures": failures}
+        failures = [str(failure) for failure in failures_of(runs[0].cycle.value.expect, result.metrics)]
+        verdicts[name] = {"passed": not failures, "failures": failures}
         if not as_json:
-            print("\n      ".join([f"{'FAIL' if failures else 'pass'}  {cycle.name}", *failures]))
+            print("\n      ".join([f"{'FAIL' if failures else 'pass'}  {name}", *failures]))
     if as_json:
         _print_json(verdicts)
     raise typer.Exit(not all(verdict["passed"] for verdict in verdicts.values()))
@@ -254,6 +255,22 @@ def _channels() -> list[dict[str, str]]:
                 row["rigs"] = f"{found[channel.name]['rigs']}, {rig}"
             found[channel.name] = row
     return list(found.values())
+
+
+@contextmanager
+def _warnings_in_one_line() -> Iterator[None]:
+    """Whatever warns, numpy too, is one line on stderr, and the same line only once."""
+    told = set()
+
+    def tell(message: Warning | str, *_: object, **__: object) -> None:
+        line = " ".join(str(message).split())
+        if line not in told:
+            told.add(line)
+            print(f"warning: {line}", file=sys.stderr)
+
+    with warnings.catch_warnings():
+        warnings.showwarning = tell
+        yield
 
 
 @contextmanager

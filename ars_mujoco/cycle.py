@@ -21,6 +21,7 @@ from ars_mujoco.parameters import Parameters, Quantity
 from ars_mujoco.signal import signal
 
 Rig = Literal["bench", "roll_plane", "sedan"]
+SHORTEST = 0.001  # s, one physics step
 
 
 class Knots(Parameters):
@@ -44,9 +45,9 @@ class Knots(Parameters):
 
 
 @cache
-def KnotsOf(unit: str) -> type[Knots]:  # noqa: N802 (reads as a type)
-    """Knots whose values carry a unit of the dimension of `unit`."""
-    knot = tuple[Quantity("s"), Quantity(unit)]
+def KnotsOf(unit: str, **limits: float) -> type[Knots]:  # noqa: N802 (reads as a type)
+    """Knots whose values carry a unit of the dimension of `unit`; `limits` are those of a Quantity."""
+    knot = tuple[Quantity("s"), Quantity(unit, **limits)]
     return create_model(f"KnotsOf({unit})", __base__=Knots, knots=(tuple[knot, ...], ...))
 
 
@@ -56,7 +57,7 @@ class Follow(Parameters):
     rig: ClassVar[Rig] = "sedan"
     kind: Literal["follow"]
     lateral_acceleration: KnotsOf("m/s^2")
-    speed: KnotsOf("m/s") | None = None  # where it changes; else the cycle's
+    speed: KnotsOf("m/s", gt=0) | None = None  # where it changes; else the cycle's
 
 
 class Circle(Parameters):
@@ -65,7 +66,7 @@ class Circle(Parameters):
     rig: ClassVar[Rig] = "sedan"
     kind: Literal["circle"]
     radius: Quantity("m", gt=0)
-    speed: KnotsOf("m/s")
+    speed: KnotsOf("m/s", gt=0)
 
 
 class StepSteer(Parameters):
@@ -76,6 +77,13 @@ class StepSteer(Parameters):
     lateral_acceleration: Quantity("m/s^2")
     start: Quantity("s", ge=0)
     ramp: Quantity("s", gt=0)
+
+    @field_validator("lateral_acceleration")
+    @classmethod
+    def _turns(cls, lateral_acceleration):
+        if lateral_acceleration == 0.0:
+            raise ValueError("must not be 0: positive turns left, negative right")
+        return lateral_acceleration
 
 
 class Straight(Parameters):
@@ -142,7 +150,7 @@ class Cycle(Parameters):
     title: str
     description: str
     rig: Rig
-    duration: Quantity("s", gt=0)
+    duration: Quantity("s", ge=SHORTEST)
     manoeuvre: Manoeuvre
     speed: Quantity("m/s", gt=0) | None = Field(None, validate_default=True)  # initial and held; of the sedan
     road: Road = Road()

@@ -77,6 +77,8 @@ def read(
         document = Document(_shown(path), content.decode())
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{_shown(path)}: cannot be read: {error}") from None
+    if document.tree == {}:
+        raise InputError(f"{_shown(path)}: is empty")
     for each in overrides:
         document.override(each)
     texts = tuple(each.text for each in overrides)

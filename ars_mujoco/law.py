@@ -31,12 +31,13 @@ class Law:
     def __init__(self, path: Path):
         self.path, self.function = path, _load(path)
         self.failure = ""  # what it raised, where that is known
+        self._callbacks: dict[str, NativeCallback] = {}
         self.is_native = not interpreted and self._compiles()
 
     def _compiles(self) -> bool:
         try:
-            numba.njit(_ARGUMENTS, **JIT_OPTIONS)(self.function)
-        except Exception as error:
+            self._command = _two_floats(self.function)
+        except Exception as error:  # numba's own, or what its insides run into
             reason = str(error).splitlines()[:2][-1]  # the first of several lines names the compiler's stage
             warnings.warn(
                 f"{self.path}: {FUNCTION}() does not compile, so it runs in Python and every step takes several times"
@@ -47,33 +48,56 @@ class Law:
         return True
 
     def callback(self, rig) -> NativeCallback:
-        """The callback of `rig` with this law in it; only the law is compiled anew."""
-        sense, act, world_at = rig.native_sense, rig.native_act, rig.world_at
-        command = numba.njit(**JIT_OPTIONS)(self.function)
-
-        def control(model, data):
-            sense(model, data)
-            world = world_at(world_address(model, data))
-            parameters, reference, sensors = world.parameters, world.later.reference, world.scratch.sensors
-            if samples_now(parameters.stabilizers.unit, sensors.time, world.header.step):
-                try:
-                    front, rear = command(sensors, reference.memory)
-                    reference.front, reference.rear = front, rear
-                except Exception:
-                    stop(world, LAW_FAILED, sensors.time)
-            act(model, data)
-
-        return NativeCallback(SIGNATURE, control, cached=False)
+        """The callback of `rig` with this law in it; only the law is compiled, and once."""
+        if rig.NAME not in self._callbacks:
+            self._callbacks[rig.NAME] = _callback(rig, self._command)
+        return self._callbacks[rig.NAME]
 
     def apply(self, world) -> None:
         """The same from Python."""
         reference, sensors = world.later.reference, world.scratch.sensors
         if samples_now(world.parameters.stabilizers.unit, sensors.time, world.header.step):
             try:
-                reference.front, reference.rear = self.function(sensors, reference.memory)
+                front, rear = self.function(sensors, reference.memory)
+                reference.front, reference.rear = float(front), float(rear)
             except Exception as error:
                 self.failure = f": {type(error).__name__}: {error}"
                 stop(world, LAW_FAILED, sensors.time)
+
+
+def _two_floats(function):
+    """`function` compiled, with its bounds checked and its result made two floats; raises where numba cannot."""
+    own = numba.njit(boundscheck=True, **JIT_OPTIONS)(function)
+
+    def command(sensors, memory):
+        front, rear = own(sensors, memory)
+        return float(front), float(rear)
+
+    compiled = numba.njit(**JIT_OPTIONS)(command)
+    compiled.compile(_ARGUMENTS)
+    return compiled
+
+
+def _callback(rig, command) -> NativeCallback:
+    """The callback of `rig` whose reference is `command`."""
+    sense, act, world_at, size, version = rig.native_sense, rig.native_act, rig.world_at, rig.SIZE, rig.VERSION
+
+    def control(model, data):
+        address = world_address(model, data, size, version)
+        if address == 0:
+            return
+        sense(model, data)
+        world = world_at(address)
+        reference, sensors = world.later.reference, world.scratch.sensors
+        if samples_now(world.parameters.stabilizers.unit, sensors.time, world.header.step):
+            try:
+                front, rear = command(sensors, reference.memory)
+                reference.front, reference.rear = front, rear
+            except Exception:  # all that compiled code can catch
+                stop(world, LAW_FAILED, sensors.time)
+        act(model, data)
+
+    return NativeCallback(SIGNATURE, control, cached=False)
 
 
 @cache
@@ -87,7 +111,7 @@ def _load(path: Path):
     module = importlib.util.module_from_spec(spec)
     try:
         spec.loader.exec_module(module)
-    except Exception as error:  # whatever a user's file raises
+    except (Exception, SystemExit) as error:  # whatever a user's file raises
         raise InputError(f"{path}: {type(error).__name__}: {error}") from None
     function = getattr(module, FUNCTION, None)
     if not callable(function):

@@ -3,6 +3,7 @@
 `cycles/` and `mjcf/` stand beside the package in a checkout and inside it once installed.
 """
 
+from glob import escape
 from itertools import takewhile
 from pathlib import Path
 
@@ -52,6 +53,7 @@ def find(kind: str, name_or_path: str | Path, beside: Path | None = None) -> Pat
     path = (beside or Path()) / name_or_path
     if path.is_file():
         return path
-    files = [str(path.with_name(each.name)) for each in path.parent.glob("*" + path.suffix)] if path.suffix else []
+    beside_it = path.parent.glob("*" + escape(path.suffix)) if path.suffix else []
+    files = [str(path.with_name(each.name)) for each in beside_it if each.is_file()]
     near = did_you_mean(text, files) or did_you_mean(path.stem, known)
     raise InputError(f"no {kind} '{text}'{near or ';'} shipped: {', '.join(known)}")

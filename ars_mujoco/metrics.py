@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ars_mujoco.control.target import target_roll
 from ars_mujoco.recording.recording import Recording
 
 G = 9.80665  # m/s^2
@@ -163,8 +164,7 @@ def target_map_error(run: Run) -> float:
     if not run.target:
         raise NotMeasurableError("the bar follows no target")
     acceleration, roll = _slow_circle(run)
-    target = np.array(run.target)
-    aims = np.degrees(np.interp(np.multiply(TARGET_CHECKS, G), target[:, 0], target[:, 1]))
+    aims = np.degrees(target_roll(run.target, np.multiply(TARGET_CHECKS, G)))
     return max(abs(_fit(acceleration, roll, g)[0] - aim) for g, aim in zip(TARGET_CHECKS, aims, strict=True))
 
 

@@ -13,11 +13,10 @@ from ars_mujoco.channels import channels
 from ars_mujoco.errors import SimulationError
 from ars_mujoco.events import Watch
 from ars_mujoco.law import Law
-from ars_mujoco.native_loop import advance
 from ars_mujoco.recording.recording import Recording, joined, scene_of
+from ars_mujoco.sampler import Sampler
 
 CHUNK = 2.0  # s between two looks at the run
-FRAME = 0.01  # s between two recorded poses
 LAST_SAMPLES = 5  # that a failed run's error shows
 
 
@@ -45,17 +44,18 @@ def simulate(simulation: Simulation, on_chunk: Callable[[Recording], None] | Non
     Raises SimulationError where the run cannot go on; `on_chunk` has then had everything up to there.
     """
     model, data = simulation.model, simulation.start()
-    empty = empty_recording(simulation)
     steps, per_chunk = round(simulation.duration / model.opt.timestep), round(CHUNK / model.opt.timestep)
     chunks, watch = [], Watch()
-    with installed(simulation.rig, model, data, simulation.law) as python:
-        for first in range(0, steps + 1, per_chunk):
-            count = min(per_chunk, steps + 1 - first)
-            chunks.append(_chunk(simulation, data, empty, first, count, first + count > steps, python))
-            chunks[-1].events = watch.events(chunks[-1])
+    with installed(simulation.rig, model, data, simulation.law) as in_python:
+        sampler = Sampler(simulation.rig, model, data, empty_recording(simulation), in_python)
+        while sampler.taken <= steps:
+            left = steps - sampler.taken
+            chunk = sampler.steps(min(per_chunk, left)) if left else sampler.last()
+            chunk.events = watch.events(chunk)
+            chunks.append(chunk)
             if on_chunk:
-                on_chunk(chunks[-1])
-            _check(simulation, data, chunks[-1])
+                on_chunk(chunk)
+            check(simulation, data, chunk)
     return joined(chunks)
 
 
@@ -71,44 +71,34 @@ def empty_recording(simulation: Simulation) -> Recording:
     )
 
 
-def _chunk(simulation, data: mujoco.MjData, empty: Recording, first: int, count: int, last: bool, python: bool):
-    """The samples of `count` steps from step `first` on; the last sample of a run is taken without stepping on."""
-    model, stride = simulation.model, round(FRAME / simulation.model.opt.timestep)
-    out_slot = simulation.rig.WORLD.fields["out"][1] // 8
-    times, values = np.empty(count), np.empty((count, len(empty.channels)))
-    poses = np.empty(((first + count - 1) // stride - (first - 1) // stride, model.nbody, 7))
-    stepped = advance(model, data, times[: count - last], values, poses, stride, out_slot, first, python)
-    if last and stepped == count - 1:
-        mujoco.mj_forward(model, data)
-        times[-1], values[-1] = data.time, data.userdata[out_slot : out_slot + values.shape[1]]
-        if (first + count - 1) % stride == 0:
-            poses[-1] = np.hstack([data.xpos, data.xquat])
-        stepped = count
-    frames = (first + stepped - 1) // stride - (first - 1) // stride
-    return Recording(
-        empty.title, empty.channels, empty.bodies, empty.scene, empty.inputs,
-        time=times[:stepped], values=values[:stepped],
-        pose_time=times[(-first) % stride : stepped : stride], poses=poses[:frames],
-    )  # fmt: skip
-
-
-def _check(simulation: Simulation, data: mujoco.MjData, chunk: Recording) -> None:
-    """Turn what the callback recorded as wrong into an error."""
+def check(simulation: Simulation, data: mujoco.MjData, chunk: Recording) -> None:
+    """Turn what the callback recorded as wrong into a SimulationError with the last samples of the channel at fault."""
     header = worlds.view(data, simulation.rig.WORLD).header
     if header.status == worlds.RUNNING:
         return
-    time = float(header.status_time)
-    if header.status == worlds.TIME_JUMP:
-        raise SimulationError(
-            f"time jumped to {time:g} s: the simulation steps by {header.step:g} s only", time, "time"
-        )
-    if header.status == worlds.LAW_FAILED:
-        message = f"{simulation.law.path}: the controller failed at {time:g} s{simulation.law.failure}"
-        raise SimulationError(message, time, "front.bar.command")
-    bad = ~np.isfinite(chunk.values[-1])
-    channel = list(chunk.channels)[int(np.argmax(bad))] if bad.any() else "body.roll"
-    samples = {channel: chunk[channel][-LAST_SAMPLES:].tolist()}
-    raise SimulationError(
-        f"the run diverged at {time:.3f} s: {channel} is not finite; its last samples are {samples[channel]}",
-        time, channel, samples,
-    )  # fmt: skip
+    time, channel = float(header.status_time), _channel_at_fault(header.status, chunk)
+    samples = {channel: chunk[channel][-LAST_SAMPLES:].tolist()} if channel in chunk.channels else {}
+    told = f"; the last samples of {channel} are {samples[channel]}" if samples else ""
+    message = {
+        worlds.TIME_JUMP: f"time jumped to {time:g} s: the simulation steps by {header.step:g} s only",
+        worlds.NOT_FINITE: f"the run diverged at {time:.3f} s: {channel} is not finite{told}",
+        worlds.LAW_FAILED: f"{simulation.law and simulation.law.path}: the controller failed at {time:g} s"
+        f"{simulation.law and simulation.law.failure}",
+        worlds.OTHER_LAYOUT: "the state that was restored has another layout than this rig's world",
+        worlds.BURST: f"the circuit left what is physical at {time:.3f} s: over 1000 bar, or far past its stop{told}",
+    }[int(header.status)]
+    raise SimulationError(message, time, channel, samples)
+
+
+def _channel_at_fault(status: float, chunk: Recording) -> str:
+    """The first channel that is not finite; for a burst the motor with the most pressure."""
+    if status in (worlds.TIME_JUMP, worlds.OTHER_LAYOUT):
+        return "time"
+    if status == worlds.LAW_FAILED:
+        return "front.bar.command"
+    names, last = list(chunk.channels), chunk.values[-1]
+    bad = ~np.isfinite(last)
+    if bad.any():
+        return names[int(np.argmax(bad))]
+    pressures = [name for name in names if name.endswith("motor.pressure")]
+    return max(pressures, key=lambda name: abs(last[names.index(name)]))

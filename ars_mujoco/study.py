@@ -5,17 +5,18 @@ inputs ─> prepare ─> simulate ─> recording ─> folder
 """
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from ars_mujoco.actuators.actuator import PumpControlled
-from ars_mujoco.errors import InputError
-from ars_mujoco.inputs import LOCKED, Inputs
+from ars_mujoco.errors import ArsError, SimulationError
+from ars_mujoco.inputs import Inputs
 from ars_mujoco.metrics import Run, Value, measure
 from ars_mujoco.recording.comparison import write_comparison
-from ars_mujoco.recording.folder import RunFolder
+from ars_mujoco.recording.folder import RunFolder, check_writable
 from ars_mujoco.recording.recording import Recording
 from ars_mujoco.setup import prepare
 from ars_mujoco.simulation import Simulation, empty_recording, simulate
@@ -35,21 +36,32 @@ class Result:
     metrics: dict[str, Value]
 
 
-def study(runs: Sequence[Inputs], references: Sequence[Inputs], out: Path | None, progress: Progress) -> list[Result]:
-    """Simulate `runs` of one cycle and measure each against the `references` (by actuator) and each other.
+def study(
+    runs: Sequence[Inputs], references: Mapping[str, Inputs], out: Path | None, progress: Progress
+) -> list[Result]:
+    """Simulate `runs` of one cycle and measure each against the `references`, by role as `read_compared` gives them.
 
     Each run writes its folder `out`/<actuator>, and several a comparison beside them, unless `out` is None; references
-    write nothing. Raises InputError and SimulationError; what was simulated up to there is then readable in the folder.
+    that are not among the runs write nothing. Raises InputError before anything is written, and SimulationError once
+    all were tried where a run failed: its folder then holds what was simulated, those of the others are complete.
+    A reference that fails costs the runs what is measured against it.
     """
-    names = [each.actuator.name for each in runs]
-    if len(set(names)) < len(names):
-        raise InputError(f"actuators {', '.join(names)}: each needs a name of its own")
-    folders = {name: out / name if out else None for name in names}
-    simulated = {each.actuator.name: _Simulated(each, None, progress) for each in references}
-    simulated |= {each.actuator.name: _Simulated(each, folders[each.actuator.name], progress) for each in runs}
-    results = [simulated[name].finish({other: each.recording for other, each in simulated.items()}) for name in names]
-    if out and len(runs) > 1:
+    each_once = list(dict.fromkeys([*runs, *references.values()]))
+    names = dict(zip(each_once, told_apart(each.actuator.name for each in each_once), strict=True))
+    folders = {run: out / names[run] for run in runs} if out else {}
+    for folder in folders.values():
+        check_writable(folder)
+    with _Study(runs, references, names, folders, progress) as going:
+        going.prepare()
+        if out and len(runs) > 1:
+            (out / COMPARISON).unlink(missing_ok=True)
+        going.drive()
+    results = [going.results[run] for run in runs if run in going.results]
+    if out and len(results) > 1:
         write_comparison(out / COMPARISON, {result.name: result.recording for result in results})
+    for run in runs:
+        if run in going.failures:
+            raise going.failures[run]
     return results
 
 
@@ -59,49 +71,118 @@ def simulation_of(inputs: Inputs) -> Simulation:
     return replace(prepare(*parts), inputs=inputs.record())
 
 
-class _Simulated:
-    """A run that is simulated but not yet measured."""
+def told_apart(names: Iterable[str]) -> list[str]:
+    """The names, with a number after those that were there before: a, b, a-2."""
+    apart: list[str] = []
+    for name in names:
+        number, unique = 1, name
+        while unique in apart:
+            number += 1
+            unique = f"{name}-{number}"
+        apart.append(unique)
+    return apart
 
-    def __init__(self, inputs: Inputs, folder: Path | None, progress: Progress):
-        self.inputs = inputs
-        name, duration = inputs.actuator.name, inputs.cycle.value.duration
-        progress(name, 0.0)
-        simulation = simulation_of(inputs)
-        self.folder = RunFolder(folder, empty_recording(simulation)) if folder else None
+
+@dataclass(frozen=True)
+class _Driven:
+    """A run that is simulated but not yet measured; `wall_time` in s."""
+
+    recording: Recording
+    wall_time: float
+    folder: RunFolder | None
+
+
+class _Study:
+    """A study that is going on: those that others are measured against drive first, and every run is finished as soon
+    as these are there or have failed. As a context it closes the folders of the runs that it did not finish.
+    """
+
+    def __init__(
+        self,
+        runs: Sequence[Inputs],
+        references: Mapping[str, Inputs],
+        names: Mapping[Inputs, str],
+        folders: Mapping[Inputs, Path],
+        progress: Progress,
+    ):
+        self.runs, self.references = runs, references
+        self.names, self.folders, self.progress = names, folders, progress
+        self.simulations: dict[Inputs, Simulation] = {}
+        self.driven: dict[Inputs, _Driven] = {}
+        self.results: dict[Inputs, Result] = {}
+        self.failures: dict[Inputs, ArsError] = {}
+        self._open = ExitStack()
+
+    def __enter__(self) -> "_Study":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._open.close()
+
+    def prepare(self) -> None:
+        """Make every simulation, references first. Raises what is wrong with a run; a mere reference may fail."""
+        for inputs in dict.fromkeys([*self.references.values(), *self.runs]):
+            self.progress(self.names[inputs], 0.0)
+            try:
+                self.simulations[inputs] = simulation_of(inputs)
+            except ArsError as error:
+                if inputs in self.runs:
+                    raise
+                self.failures[inputs] = error
+
+    def drive(self) -> None:
+        """Simulate all and finish the runs among them."""
+        for inputs in self.simulations:
+            try:
+                self.driven[inputs] = self._simulate(inputs)
+            except SimulationError as error:
+                message = f"{self.names[inputs]}: {error}"
+                self.failures[inputs] = SimulationError(message, error.time, error.channel, error.samples)
+            for run in self._ready():
+                self.results[run] = self._finish(run)
+
+    def _simulate(self, inputs: Inputs) -> _Driven:
+        simulation, folder = self.simulations[inputs], None
+        if inputs in self.folders:
+            folder = self._open.enter_context(RunFolder(self.folders[inputs], empty_recording(simulation)))
 
         def show(chunk: Recording) -> None:
-            if self.folder:
-                self.folder.append(chunk)
-            progress(name, chunk.time[-1] / duration)
+            if folder:
+                folder.append(chunk)
+            self.progress(self.names[inputs], chunk.time[-1] / simulation.duration)
 
         start = time.perf_counter()
-        try:
-            self.recording = simulate(simulation, show)
-        except BaseException:
-            if self.folder:
-                self.folder.close()
-            raise
-        self.wall_time = time.perf_counter() - start
+        recording = simulate(simulation, show)
+        return _Driven(recording, time.perf_counter() - start, folder)
 
-    def finish(self, others: dict[str, Recording]) -> Result:
-        """Measure the run, `others` by their actuators' names, and complete its folder."""
-        cycle, name = self.inputs.cycle.value, self.inputs.actuator.name
-        reference, locked = (
-            others.get(each) if each != name else None for each in (Path(cycle.reference).stem, LOCKED)
-        )
-        run = Run(
-            self.recording,
-            cycle.window or (0.0, cycle.duration),
-            reference=reference,
-            locked=locked,
-            target=_target(self.inputs),
-            wall_time=self.wall_time,
-        )
-        metrics = measure(run)
-        self.recording.metrics = {metric: _told(value) for metric, value in metrics.items()}
-        if self.folder:
-            self.folder.finish(self.recording)
-        return Result(name, self.inputs, self.recording, metrics)
+    def _ready(self) -> list[Inputs]:
+        """The runs to be finished: those that are driven, once nothing that they are measured against is to come."""
+        if any(each not in self.driven and each not in self.failures for each in self.references.values()):
+            return []
+        return [run for run in self.runs if run in self.driven and run not in self.results]
+
+    def _finish(self, run: Inputs) -> Result:
+        """Measure a run and complete its folder."""
+        driven, cycle = self.driven[run], run.cycle.value
+        others = {
+            role: self.driven[other].recording
+            for role, other in self.references.items()
+            if other is not run and other in self.driven
+        }
+        window = cycle.window or (0.0, cycle.duration)
+        measured = measure(Run(driven.recording, window, **others, target=_target(run), wall_time=driven.wall_time))
+        metrics = {name: self._explained(value) for name, value in measured.items()}
+        driven.recording.metrics = {name: _told(value) for name, value in metrics.items()}
+        if driven.folder:
+            driven.folder.finish(driven.recording)
+        return Result(self.names[run], run, driven.recording, metrics)
+
+    def _explained(self, value: Value) -> Value:
+        """A metric; where a reference is missing because it failed, with the reason."""
+        for role, other in self.references.items():
+            if other in self.failures and value.note == f"no {role} run to compare with":
+                return replace(value, note=f"{value.note}; {self.failures[other]}")
+        return value
 
 
 def _told(value: Value) -> dict[str, Any]:
@@ -113,7 +194,7 @@ def _told(value: Value) -> dict[str, Any]:
 
 
 def _target(inputs: Inputs) -> tuple[tuple[float, float], ...]:
-    """The roll that an active bar aims at: knots of lateral acceleration (m/s^2) and roll (rad)."""
+    """The roll that an active bar without a law aims at: knots of lateral acceleration (m/s^2) and roll (rad)."""
     reference = inputs.controller.value.reference
-    is_active = isinstance(inputs.actuator.value, PumpControlled)
-    return tuple(reference.target) if is_active and reference else ()
+    aims = isinstance(inputs.actuator.value, PumpControlled) and reference and not inputs.law
+    return tuple(reference.target) if aims else ()

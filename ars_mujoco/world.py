@@ -9,24 +9,27 @@ continues bit for bit. Where the magic number is absent (a reset wipes userdata)
 that the model carries as its last custom numeric.
 """
 
+import hashlib
 import math
 
 import mujoco
 import numpy as np
 
+from ars_mujoco.actuators.axle import PUMP_CONTROLLED
 from ars_mujoco.kernel import kernel
 
 MAGIC = 4153115110.0  # marks an initialised world
-VERSION = 1.0  # of the layout below
 NUMERIC = "ars_mujoco_world"  # the custom numeric that holds the initial world
 
 # status of a run, written by the callback and turned into an error by the loop
-RUNNING, TIME_JUMP, NOT_FINITE, LAW_FAILED = 0.0, 1.0, 2.0, 3.0
+RUNNING, TIME_JUMP, NOT_FINITE, LAW_FAILED, OTHER_LAYOUT, BURST = range(6)
+
+BURST_PRESSURE = 1e8  # Pa; no relief valve lets a real circuit get near 1000 bar
 
 HEADER = np.dtype(
     [
         ("magic", "f8"),
-        ("version", "f8"),
+        ("version", "f8"),  # of the layout, see `layout_version`
         ("step", "f8"),  # s, the physics step
         ("started", "f8"),  # 1 once a call has been made
         ("time", "f8"),  # s, of the last call
@@ -42,6 +45,11 @@ def world_dtype(parameters: np.dtype, state: np.dtype, out: np.dtype, scratch: n
     return np.dtype(list(blocks.items()))
 
 
+def layout_version(dtype: np.dtype) -> float:
+    """A number that differs where the names or the order of a world's fields do: another rig, another release."""
+    return float(int(hashlib.sha256(repr(dtype.descr).encode()).hexdigest()[:12], 16))
+
+
 def view(data: mujoco.MjData, dtype: np.dtype):
     """The world in `data.userdata` as a record: reads and writes go to MuJoCo's memory."""
     return np.asarray(data.userdata).view(dtype).view(np.recarray)[0]
@@ -50,7 +58,7 @@ def view(data: mujoco.MjData, dtype: np.dtype):
 def new_world(dtype: np.dtype, step: float):
     """A world with its header filled, all else zero, as a recarray of shape (1,)."""
     world = np.zeros(1, dtype=dtype).view(np.recarray)
-    world[0].header.magic, world[0].header.version, world[0].header.step = MAGIC, VERSION, step
+    world[0].header.magic, world[0].header.version, world[0].header.step = MAGIC, layout_version(dtype), step
     return world
 
 
@@ -75,6 +83,14 @@ def check_finite(world, value: float, time: float) -> None:
     """Record that a number which sums up the step is not finite."""
     if not math.isfinite(value):
         stop(world, NOT_FINITE, time)
+
+
+@kernel
+def check_circuit(world, axle, circuit, time: float) -> None:
+    """Record that an axle's circuit has left all that is physical: its substeps burst, or the vane passed its stop."""
+    beyond = abs(circuit.pressure) > BURST_PRESSURE or abs(circuit.angle) > 2.0 * axle.circuit.motor.stop_angle
+    if axle.kind == PUMP_CONTROLLED and beyond:
+        stop(world, BURST, time)
 
 
 @kernel

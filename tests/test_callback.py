@@ -12,8 +12,9 @@ from mujoco.batch import Batch
 
 from ars_mujoco import world as worlds
 from ars_mujoco.callback import installed
-from ars_mujoco.errors import ArsError
+from ars_mujoco.errors import ArsError, SimulationError
 from ars_mujoco.rigs import bench
+from ars_mujoco.simulation import check, empty_recording
 
 S_CURVE, ROLL_PLANE, BENCH = "s_curve_120kmh", "roll_plane_step", "bench_s_curve"
 MIDDLE = 2.5  # s into a cycle, where everything moves
@@ -306,3 +307,35 @@ def test_the_interpreted_twin_agrees_to_1e_12(cycle, tmp_path, monkeypatch):
     apart = np.abs(interpreted - compiled).max(axis=0) / np.maximum(np.abs(compiled).max(axis=0), 1e-300)
     print(f"{cycle}: {apart.max():.1e} apart, relative to each number's peak")
     assert apart.max() < 1e-12
+
+
+# ---- models of others
+
+
+def test_a_callback_leaves_models_alone_that_are_not_its_own():
+    sedan, roll_plane = shipped.simulation(S_CURVE), shipped.simulation(ROLL_PLANE)
+    plain = mujoco.MjModel.from_xml_string("<mujoco><size nuserdata='3'/><worldbody><body><freejoint/>"
+                                           "<geom size='.1'/></body></worldbody></mujoco>")  # fmt: skip
+    alone, beside = sedan.start(), sedan.start()
+    other, falling = roll_plane.start(), mujoco.MjData(plain)
+    with installed(sedan.rig, sedan.model, alone):
+        for _ in range(20):
+            mujoco.mj_step(sedan.model, alone)
+        for _ in range(20):
+            mujoco.mj_step(sedan.model, beside)
+            mujoco.mj_step(roll_plane.model, other)
+            mujoco.mj_step(plain, falling)
+    assert not other.userdata.any()
+    assert not falling.userdata.any()
+    np.testing.assert_array_equal(alone.qpos, beside.qpos)
+
+
+def test_a_restored_state_of_another_layout_is_told():
+    simulation = shipped.simulation(S_CURVE)
+    data = simulation.start()
+    with installed(simulation.rig, simulation.model, data):
+        mujoco.mj_step(simulation.model, data)
+        data.userdata[1] += 1.0
+        mujoco.mj_step(simulation.model, data)
+    with pytest.raises(SimulationError, match="has another layout"):
+        check(simulation, data, empty_recording(simulation))

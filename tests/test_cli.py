@@ -131,6 +131,19 @@ def test_check_fails_a_cycle_that_does_not(ars, tmp_path):
             "actuators pump_controlled, pump_",
         ),
         (["check", "small"], "no cycle 'small'"),
+        (["run", "x.**"], "no cycle 'x.**'; shipped: "),
+        (
+            ["run", "small.yaml", "--out", "small.yaml/out"],
+            "small.yaml/out/pump_controlled: cannot be written to: Not a directory",
+        ),
+        (
+            ["run", "small.yaml", "--actuator", "passive", "--set", "actuator=locked"],
+            "--set actuator=locked: the actuator is also named as 'passive'; name one of them",
+        ),
+        (
+            ["compare", "small.yaml", "--actuators", "passive,locked", "--set", "actuator=none"],
+            "--set actuator=none: the actuator is also named as 'passive'; name one of them",
+        ),
         (["view", "nowhere"], "no recording 'nowhere'; allowed: an .rrd file, or the folder of a run or a comparison"),
     ],
 )
@@ -140,6 +153,29 @@ def test_bad_input_is_one_clear_line_and_leaves_no_result(ars, tmp_path, argumen
     assert err.startswith("error: " + error)
     assert "\n" not in err.strip()
     assert not list(tmp_path.rglob("run.*"))
+
+
+def test_what_warns_is_one_line_and_only_once(ars, tmp_path):
+    law = "import warnings\nfor _ in range(3):\n    warnings.warn('of two\\n  lines', stacklevel=_ + 1)\ncommand = 3\n"
+    (tmp_path / "law.py").write_text(law)
+    status, out, err = ars("run", "roll_plane_step", "--controller", "law.py")
+    assert (status, out) == (1, "")
+    assert err == "warning: of two lines\nerror: law.py: has no function command(sensors, memory)"
+
+
+def test_numpys_warnings_are_told_like_others(ars, tmp_path):
+    law = "import numpy\nnumpy.log(numpy.zeros(1))\nnumpy.ones(1) / 0\ncommand = 3\n"
+    (tmp_path / "law.py").write_text(law)
+    _, _, err = ars("run", "roll_plane_step", "--controller", "law.py")
+    assert err.splitlines()[:-1] == [f"warning: divide by zero encountered in {where}" for where in ("log", "divide")]
+
+
+def test_cycles_of_the_same_name_each_get_a_verdict(ars, tmp_path):
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "small.yaml").write_text(BENCH_CYCLE.replace("<= 0.1 %", ">= 10 %"))
+    status, out, _ = ars("check", "small.yaml", "other/small.yaml", "--json")
+    assert status == 1
+    assert {name: each["passed"] for name, each in json.loads(out).items()} == {"small": True, "small-2": False}
 
 
 def test_a_wrong_option_is_a_usage_error(ars):

@@ -86,7 +86,7 @@ def test_an_expectation_is_held_in_the_metrics_unit():
         ("expect.peak_rol=>= 3 deg", "expect.peak_rol: '>= 3 deg': unknown metric; did you mean 'peak_roll'?"),
         ("expect.peak_roll=3 deg", "expect.peak_roll: '3 deg': not a limit"),
         ("expect.peak_roll=<= 3 bar", "expect.peak_roll: '<= 3 bar': wrong unit"),
-        ("duration=0 s", "duration: '0 s': must be greater than 0 s"),
+        ("duration=0 s", "duration: '0 s': must be at least 0.001 s"),
         ("window=[5 s, 3 s]", "window: needs a start before its end"),
         ("window=[5 s, 25 s]", "window: needs a start before its end, both within the duration"),
         ("rig=trailer", "rig: 'trailer': unknown; allowed: bench, roll_plane, sedan"),
@@ -101,6 +101,24 @@ def test_an_expectation_is_held_in_the_metrics_unit():
 )
 def test_a_setting_that_makes_no_sense_is_refused(setting, expected):
     assert problem("s_curve_120kmh", setting).startswith(f"--set {setting}: {expected}")
+
+
+@pytest.mark.parametrize("speed", ["0 km/h", "-50 km/h"])
+def test_a_car_never_stands_nor_reverses(speed):
+    held = f"speed={speed}"
+    assert problem("s_curve_120kmh", held) == f"--set {held}: speed: '{speed}': must be greater than 0 km/h"
+    changing = f"manoeuvre.speed.knots=[[0 s, 30 km/h], [5 s, {speed}]]"
+    expected = f"--set {changing}: manoeuvre.speed.knots.1.1: '{speed}': must be greater than 0 km/h"
+    assert problem("steady_circle_iso4138", changing) == expected
+    with pytest.raises(InputError) as error:
+        cycle("s_curve_120kmh", changing)
+    assert expected in error.value.problems
+
+
+def test_a_step_steer_turns():
+    line = problem("step_steer_iso7401", "manoeuvre.lateral_acceleration=0 g")
+    assert line.endswith("manoeuvre.lateral_acceleration: '0 g': must not be 0: positive turns left, negative right")
+    assert cycle("step_steer_iso7401", "manoeuvre.lateral_acceleration=-0.5 g").manoeuvre.lateral_acceleration < 0
 
 
 def test_a_manoeuvre_of_another_rig_is_refused():

@@ -175,21 +175,22 @@ def test_an_alias_of_itself_is_refused(machine):
     assert line == "machine.yaml: nested too deeply, or an alias that refers to itself"
 
 
-def test_a_text_that_is_not_utf8_is_refused(tmp_path):
+@pytest.mark.parametrize(("content", "problem"), [(b"\xff\xfe\x00", "cannot be read"), (b"a: \x00\x01", "unaccept")])
+def test_what_is_no_text_is_refused_in_one_line(tmp_path, content, problem):
     path = tmp_path / "binary.yaml"
-    path.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(InputError, match=r"binary\.yaml: cannot be read"):
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=rf"^[^\n]*binary\.yaml: {problem}[^\n]*$"):
         read(Machine, path, "vehicle")
 
 
-def test_an_empty_file_misses_every_key(machine):
-    assert [line.split(":")[2].strip() for line in problems(machine, "")] == [
-        "name",
-        "mass",
-        "element",
-        "front",
-        "rear",
-    ]
+@pytest.mark.parametrize("text", ["", "\n", "# only a comment\n", "---\n", "{}"])
+def test_an_empty_file_is_told_as_such(machine, text):
+    assert problems(machine, text) == ["machine.yaml: is empty"]
+
+
+def test_a_file_that_holds_a_part_misses_every_other_key(machine):
+    lines = problems(machine, "name: a machine\n")
+    assert [line.split(":")[2].strip() for line in lines] == ["mass", "element", "front", "rear"]
 
 
 trees = st.recursive(

@@ -108,6 +108,30 @@ def test_a_law_that_returns_no_number_stops_the_run(law):
         drive(path)
 
 
+def test_a_law_that_writes_past_its_memory_is_stopped(law):
+    path = law("def command(sensors, memory):\n    for i in range(80):\n        memory[i] = 1.0\n    return 0.0, 0.0\n")
+    with pytest.raises(SimulationError, match="the controller failed at 0 s"):
+        drive(path)
+
+
+@pytest.mark.filterwarnings("ignore:.*does not compile")
+@pytest.mark.parametrize("result", ["0.1", "0.1, 0.2, 0.3", "None", "'left', 'right'"])
+def test_a_law_that_returns_anything_but_two_numbers_is_stopped(law, result):
+    with pytest.raises(SimulationError, match="the controller failed at 0 s: (Type|Value)Error"):
+        drive(law(f"def command(sensors, memory):\n    return {result}\n"))
+
+
+def test_a_file_that_ends_the_program_is_an_error(law):
+    with pytest.raises(InputError, match="SystemExit"):
+        drive(law("import sys\nsys.exit(0)\n"))
+
+
+def test_a_law_is_compiled_once(law):
+    own = Law(law(HOLD))
+    rig = simulation_of(read_inputs("s_curve_120kmh")).rig
+    assert own.callback(rig) is own.callback(rig)
+
+
 def test_a_missing_file_is_an_error():
     with pytest.raises(InputError, match=r"no controller 'nowhere\.py'"):
         read_inputs("s_curve_120kmh", controller="nowhere.py")

@@ -57,6 +57,21 @@ def test_a_missing_file_is_answered_with_the_nearest_beside_it(tmp_path):
         library.find("cycle", tmp_path / "mien.yaml")
 
 
+@pytest.mark.parametrize("name", ["x.**", "x.[", "*.yaml", "?", "", ".", "..", "/"])
+def test_whatever_is_no_file_is_answered_in_one_line(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder.yaml").mkdir()
+    with pytest.raises(InputError) as error:
+        library.find("vehicle", name)
+    assert str(error.value) == f"no vehicle '{name}'; shipped: bench, roll_plane, sedan"
+
+
+def test_a_folder_is_no_file(tmp_path):
+    (tmp_path / "folder.yaml").mkdir()
+    with pytest.raises(InputError, match=r"no vehicle '.*folder\.yaml'; shipped: "):
+        library.find("vehicle", tmp_path / "folder.yaml")
+
+
 def test_a_path_that_an_installed_package_does_not_have_is_answered_with_the_name(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(InputError, match=r"did you mean 's_curve_120kmh'\?"):

@@ -39,8 +39,8 @@ def circling(roll_of_g, top: float = 0.9, side: float = 1.0) -> Recording:
     return recording(time, body__roll=side * roll, body__lateral_acceleration=side * g * G)
 
 
-def on_target(g: float) -> float:
-    return np.degrees(np.interp(g * G, *np.transpose(TARGET)))
+def on_target(g: float, target=TARGET) -> float:
+    return np.degrees(np.interp(g * G, *np.transpose(target)))
 
 
 def pumping(axles=("front",), astray: float = 0.0, scale: float = 1.0) -> Recording:
@@ -183,6 +183,14 @@ def test_a_manoeuvre_that_is_not_slow_has_no_gradient():
 def test_a_car_on_its_target_map_has_no_error():
     measured = values(circling(on_target), window=(0.0, 50.0), target=TARGET)["target_map_error"]
     assert measured.value < 0.015  # the straight line through 0.01 g either side cuts the map's corners
+
+
+def test_beyond_its_last_knot_a_target_goes_on_with_its_slope():
+    to_1_g = ((0.0, 0.0), (0.3 * G, 0.0), (1.0 * G, np.radians(1.4)))
+    to_0_6_g = (*to_1_g[:2], (0.6 * G, np.radians(0.6)))
+    run = circling(lambda g: on_target(g, to_1_g))
+    measured = values(run, window=(0.0, 50.0), target=to_0_6_g)["target_map_error"]
+    assert measured.value < 0.015
 
 
 def test_the_target_map_error_is_the_largest_at_its_three_points():

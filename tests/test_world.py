@@ -9,9 +9,9 @@ from ars_mujoco.world import (
     NOT_FINITE,
     RUNNING,
     TIME_JUMP,
-    VERSION,
     begin,
     check_finite,
+    layout_version,
     new_world,
     stop,
     view,
@@ -33,8 +33,14 @@ def world():
 
 def test_a_new_world_is_marked_and_has_a_version_but_has_not_started():
     header = new_world(WORLD, 0.001)[0].header
-    assert (header.magic, header.version, header.step) == (MAGIC, VERSION, 0.001)
+    assert (header.magic, header.version, header.step) == (MAGIC, layout_version(WORLD), 0.001)
     assert (header.started, header.status) == (0.0, RUNNING)
+
+
+def test_worlds_of_other_fields_have_other_versions():
+    other = np.dtype([("figure", "f8")])
+    assert layout_version(WORLD) != layout_version(world_dtype(BLOCK, BLOCK, BLOCK, other))
+    assert layout_version(WORLD) == layout_version(world_dtype(BLOCK, BLOCK, BLOCK, BLOCK))
 
 
 def test_the_world_is_all_float64_so_that_userdata_holds_it():

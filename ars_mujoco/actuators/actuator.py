@@ -5,8 +5,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ars_mujoco.actuators.axle import NO_BAR, PUMP_CONTROLLED, TORSION_BAR
-from ars_mujoco.hydraulics.reduced_circuit import ReducedCircuit, substeps
-from ars_mujoco.kernel import entry
+from ars_mujoco.hydraulics.reduced_circuit import ReducedCircuit
+from ars_mujoco.hydraulics.substeps import substeps
 from ars_mujoco.parameters import Parameters, fill
 
 
@@ -40,11 +40,11 @@ class PumpControlled(Parameters):
 Actuator = Annotated[NoBar | Passive | Locked | PumpControlled, Field(discriminator="kind")]
 
 
-def fill_axle(record, actuator: Actuator, axle: str, stiffness: float, passive_stiffness: float, loop, step: float):
+def fill_axle(record, actuator: Actuator, axle: str, stiffness: float, passive_stiffness: float, step: float):
     """Write the parameters of one axle ("front" or "rear") of `actuator` into an `axle.Axle` record.
 
     `stiffness` and `passive_stiffness` (Nm/rad) are the torsion of the active bar and of the conventional one in its
-    place; `loop` (a BarAngleLoop record) and `step` (s) decide the substeps.
+    place; the physics step (s) is divided into substeps.
     """
     match actuator:
         case NoBar():
@@ -56,9 +56,4 @@ def fill_axle(record, actuator: Actuator, axle: str, stiffness: float, passive_s
         case PumpControlled():
             record.kind, record.stiffness = PUMP_CONTROLLED, stiffness
             fill(record.circuit, getattr(actuator, axle))
-            record.substeps = _substeps(record, step)
-
-
-@entry
-def _substeps(axle, step: float) -> int:
-    return substeps(axle.circuit, axle.stiffness, step)
+            record.substeps = substeps(record.circuit, stiffness, step)

@@ -18,7 +18,8 @@ from ars_mujoco.analysis.figure import ACCENT, SHADES, label, legend_beside
 from ars_mujoco.analysis.linearization import closed_loop
 from ars_mujoco.analysis.loop import Loop
 from ars_mujoco.analysis.margins import bandwidth
-from ars_mujoco.hydraulics.reduced_circuit import CircuitEnergy, CircuitState, advance, substeps
+from ars_mujoco.hydraulics.reduced_circuit import CircuitEnergy, CircuitState, advance
+from ars_mujoco.hydraulics.substeps import substeps
 from ars_mujoco.kernel import entry
 from ars_mujoco.parameters import record_dtype
 
@@ -103,17 +104,17 @@ def _measured_at(loop: Loop, amplitude: float, frequency: float) -> complex:
     samples = max(64, math.ceil(1.0 / (frequency * STEP)))
     settling, periods = (max(2, math.ceil(seconds * frequency)) for seconds in (SETTLING, MEASURED))
     state, energy = (np.zeros(1, record_dtype(model)).view(np.recarray)[0] for model in (CircuitState, CircuitEnergy))
+    count = substeps(loop.circuit, loop.stiffness, 1.0 / (frequency * samples))
     cosine, sine = _fundamental(
-        loop.circuit, loop.stiffness, loop.gain, state, energy, amplitude, frequency, settling, periods, samples
+        loop.circuit, loop.stiffness, loop.gain, state, energy, amplitude, frequency, settling, periods, samples, count
     )
     return complex(sine, cosine) / amplitude
 
 
 @entry
-def _fundamental(circuit, stiffness, gain, state, energy, amplitude, frequency, settling, periods, samples):
+def _fundamental(circuit, stiffness, gain, state, energy, amplitude, frequency, settling, periods, samples, count):
     """(cosine, sine) amplitudes (rad) of the angle under a command of `amplitude` sin(2 pi `frequency` t)."""
     step, turn = 1.0 / (frequency * samples), 2.0 * math.pi / samples
-    count = substeps(circuit, stiffness, step)
     cosine = sine = 0.0
     for i in range((settling + periods) * samples):
         first, middle, last = (

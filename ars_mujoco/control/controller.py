@@ -5,14 +5,15 @@ from ars_mujoco.control.bar_angle_loop import BarAngleLoop
 from ars_mujoco.control.control_unit import ControlUnit
 from ars_mujoco.control.roll_trim import RollTrim
 from ars_mujoco.control.speed_fade import SpeedFade
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.control.target import Target
+from ars_mujoco.parameters import Number, Parameters
 
 
 class Reference(Parameters):
     """From the accelerometer to the bar angles, by a target for the roll."""
 
     accelerometer: Accelerometer
-    target: list[tuple[Quantity("m/s^2", ge=0), Quantity("rad")]]  # knots: lateral acceleration, wanted roll
+    target: Target  # roll over lateral acceleration
     fade: SpeedFade
     front_share: Number(gt=0, lt=1)  # of the bars' torque
     trim: RollTrim

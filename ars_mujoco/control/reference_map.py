@@ -1,7 +1,7 @@
 """Reference map: from the lateral accelerometer to the commanded angle of each bar.
 
 The engineer gives a target, roll over lateral acceleration; the statics of the very model that runs turn it into this
-table once, at set-up (`ars_mujoco.vehicle.statics`). Nothing here is tuned by hand: another car gets another table.
+table once, at set-up (`ars_mujoco.vehicle.reference_map`). Nothing is tuned by hand: another car gets another table.
 """
 
 import numpy as np

@@ -12,8 +12,6 @@ instead and sets `gain` to zero.
 Constants divide before they multiply (1 / inertia * torque), so that a division leaves the loop over the substeps.
 """
 
-import math
-
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.swash_plate_loop import SwashPlateLoop, valve_command
 from ars_mujoco.hydraulics.line import Line, capacitance, capacitance_slope
@@ -21,14 +19,12 @@ from ars_mujoco.hydraulics.pump import Pump, ideal_flow, torque_loss
 from ars_mujoco.hydraulics.relief_valve import ReliefValve, relief_flow
 from ars_mujoco.hydraulics.servo_valve import ServoValve, spool_acceleration
 from ars_mujoco.hydraulics.swash_plate import SwashPlate, stroke_rate
-from ars_mujoco.hydraulics.vane_motor import VaneMotor, friction_stiffness, friction_torque, stop_torque
+from ars_mujoco.hydraulics.vane_motor import VaneMotor, friction_torque, stop_torque
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, Quantity
 from ars_mujoco.saturation import saturate
 
-RK4_REAL_LIMIT = 2.785  # |lambda h| up to which the classical Runge-Kutta step is stable on the negative real axis
 NOTHING = (0.0,) * 10
-STIFFNESS_MARGIN = 0.92  # of that limit: the friction's own eigenvalue moves a little as the bar loads the motor
 
 
 class ReducedCircuit(Parameters):
@@ -69,24 +65,6 @@ class CircuitEnergy(Parameters):
     charge: Signal("J", "drawn by charge and control supply, all of it lost")
     motor: Signal("J", "work of the motor on the bar")
     throughput: Signal("J", "integral of |shaft| + |motor| power")
-
-
-@kernel
-def substeps(circuit, bar_stiffness: float, step: float) -> int:
-    """Substeps a physics step of `step` s needs, from the circuit's fastest eigenvalues.
-
-    The friction's rounding is the stiff one (real, friction slope over inertia); the hydraulic pair is oscillatory.
-    """
-    inertia = circuit.motor.inertia
-    friction = friction_stiffness(circuit.motor) / inertia
-    oil = circuit.line.capacitance
-    hydraulic = math.sqrt(
-        (circuit.motor.displacement**2 / oil + bar_stiffness + circuit.motor.stop_stiffness) / inertia
-    )
-    leak = (circuit.pump.leakage + circuit.motor.leakage + circuit.relief_valve.conductance) / oil
-    valve = 2.0 * circuit.servo_valve.damping * circuit.servo_valve.frequency
-    fastest = max(friction, 2.0 * hydraulic, leak, valve)
-    return max(4, math.ceil(step * fastest / (RK4_REAL_LIMIT * STIFFNESS_MARGIN)))
 
 
 @kernel

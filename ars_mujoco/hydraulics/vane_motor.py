@@ -31,12 +31,6 @@ def friction_torque(motor, rate: float) -> float:
 
 
 @kernel
-def friction_stiffness(motor) -> float:
-    """Steepest slope (Nms/rad) of the friction torque over speed, at standstill: what makes the circuit stiff."""
-    return (motor.coulomb_friction + motor.static_friction) / motor.friction_speed + motor.viscous_friction
-
-
-@kernel
 def stop_torque(motor, angle: float) -> float:
     """Torque (Nm) of the mechanical stop against an angle beyond it; elastic, so it stores and gives back."""
     if angle > motor.stop_angle:

@@ -7,7 +7,9 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from tempfile import TemporaryFile
 
+from ars_mujoco.errors import InputError
 from ars_mujoco.recording.parquet_file import write_parquet
 from ars_mujoco.recording.recording import Recording
 from ars_mujoco.recording.rerun_file import RerunFile, part_of
@@ -62,6 +64,15 @@ class RunFolder:
         """Until the thread has done all; raises what went wrong there."""
         while self._tasks:
             self._tasks.pop(0).result()
+
+
+def check_writable(path: Path) -> None:
+    """Raise InputError where the folder `path` cannot be written to, or made; nothing is left behind."""
+    try:
+        nearest = next(each for each in (path, *path.absolute().parents) if each.exists())
+        TemporaryFile(dir=nearest).close()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written to: {error.strerror or error}") from None
 
 
 def write_whole(path: Path, write: Callable[[Path], None]) -> None:

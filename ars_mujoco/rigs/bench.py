@@ -12,7 +12,7 @@ from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import stabilizers
 from ars_mujoco.rigs.stabilizers import stabilize_both
 from ars_mujoco.signal import SIGNAL, slope, value
-from ars_mujoco.world import begin, check_finite, world_dtype
+from ars_mujoco.world import begin, check_circuit, check_finite, layout_version, world_dtype
 
 NAME = "bench"
 
@@ -28,7 +28,6 @@ class Output(Parameters):
     front: AxleOutput
 
 
-OUTPUT = Output
 PARAMETERS = np.dtype(
     [
         ("stabilizers", stabilizers.PARAMETERS),
@@ -61,6 +60,7 @@ def step(world, mj) -> None:
         p.stabilizers, world.now.stabilizers, world.later.stabilizers, world.out.front, world.scratch.rear,
         mj.time, h, parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0, 0.0),
     )  # fmt: skip
+    check_circuit(world, p.stabilizers.front, world.later.stabilizers.front.circuit, mj.time)
     check_finite(world, front, mj.time)
 
 
@@ -86,11 +86,14 @@ def parabola(signal, time: float, step: float):
     return first, (4.0 * middle - 3.0 * first - last) / step, 2.0 * (first - 2.0 * middle + last) / (step * step)
 
 
+SIZE, VERSION = WORLD.itemsize // 8, layout_version(WORLD)
 world_at = record_at(WORLD)
 
 
 def _control(model, data):
-    step(world_at(world_address(model, data)), fields(data))
+    address = world_address(model, data, SIZE, VERSION)
+    if address != 0:
+        step(world_at(address), fields(data))
 
 
 CALLBACK = NativeCallback(SIGNATURE, _control)

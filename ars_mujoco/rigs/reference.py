@@ -49,7 +49,7 @@ def read_accelerometer(p, now, later, sensors, velocity, axis, frame_acceleratio
         now.accelerometer, later.accelerometer, velocity, axis, p.gravity, step
     )
     low_pass(p.accelerometer, now.accelerometer, later.accelerometer, reading, step)
-    sensors.lateral_acceleration = now.accelerometer.filtered
+    sensors.lateral_acceleration = later.accelerometer.filtered
     later.memory = now.memory
     later.front, later.rear = now.front, now.rear
     return reading

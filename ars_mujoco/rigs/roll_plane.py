@@ -13,7 +13,7 @@ from ars_mujoco.rigs import reference, stabilizers
 from ars_mujoco.rigs.reference import SensorOutput, own_reference, read_accelerometer
 from ars_mujoco.rigs.stabilizers import BAR_ADDRESSES, apply_bar_torques, bar_addresses, stabilize_both, twist
 from ars_mujoco.signal import SIGNAL, value
-from ars_mujoco.world import begin, check_finite, world_dtype
+from ars_mujoco.world import begin, check_circuit, check_finite, layout_version, world_dtype
 
 NAME = "roll_plane"
 NO_SPEED = 100.0  # m/s; the rig has none, and a controller that fades in with speed must act
@@ -118,26 +118,35 @@ def act(world, mj) -> None:
         (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
     )  # fmt: skip
     apply_bar_torques(at.bars, mj, front, rear)
+    check_circuit(world, p.stabilizers.front, later.stabilizers.front.circuit, mj.time)
+    check_circuit(world, p.stabilizers.rear, later.stabilizers.rear.circuit, mj.time)
     check_finite(world, front + rear + out.body.roll + out.body.roll_rate, mj.time)
 
 
+SIZE, VERSION = WORLD.itemsize // 8, layout_version(WORLD)
 world_at = record_at(WORLD)
 
 
 def _control(model, data):
-    step(world_at(world_address(model, data)), fields(data))
+    address = world_address(model, data, SIZE, VERSION)
+    if address != 0:
+        step(world_at(address), fields(data))
 
 
 @entry
 def native_sense(model: int, data: int) -> None:
     """`sense` for mjModel and mjData at these addresses."""
-    sense(world_at(world_address(model, data)), fields(data))
+    address = world_address(model, data, SIZE, VERSION)
+    if address != 0:
+        sense(world_at(address), fields(data))
 
 
 @entry
 def native_act(model: int, data: int) -> None:
     """`act` for mjModel and mjData at these addresses."""
-    act(world_at(world_address(model, data)), fields(data))
+    address = world_address(model, data, SIZE, VERSION)
+    if address != 0:
+        act(world_at(address), fields(data))
 
 
 CALLBACK = NativeCallback(SIGNATURE, _control)

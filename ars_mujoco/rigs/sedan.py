@@ -23,10 +23,11 @@ from ars_mujoco.rigs.stabilizers import BAR_ADDRESSES, apply_bar_torques, bar_ad
 from ars_mujoco.road import Bump, height_and_slope
 from ars_mujoco.signal import SIGNAL, slope, value
 from ars_mujoco.tires.tire import Tire, TireOutput, TireState, tire
-from ars_mujoco.world import begin, check_finite, world_dtype
+from ars_mujoco.world import begin, check_circuit, check_finite, layout_version, world_dtype
 
 NAME = "sedan"
 CORNERS = ("fl", "fr", "rl", "rr")
+WALKING = 1.0  # m/s; below it a lateral acceleration asks for no tighter path
 
 
 class BodyOutput(Parameters):
@@ -89,7 +90,8 @@ PARAMETERS = np.dtype(
         ("stabilizers", stabilizers.PARAMETERS),
         ("reference", reference.PARAMETERS),
         ("driver", record_dtype(Driver)),
-        ("demand", SIGNAL),  # curvature of the path (1/m), or in open loop the steering angle (rad)
+        ("demand", SIGNAL),  # curvature of the path (1/m), lateral acceleration, or in open loop the steering angle
+        ("demand_over_speed", "f8"),  # 1: the demand is a lateral acceleration (m/s^2), the path's at the wanted speed
         ("speed", SIGNAL),  # m/s
         ("front_tire", record_dtype(Tire)),
         ("rear_tire", record_dtype(Tire)),
@@ -175,7 +177,7 @@ def act(world, mj) -> None:
     speed = value(p.speed, mj.time)
     steer, front_torque, rear_torque = drive(
         p.driver, now.driver, later.driver, out.driver, h,
-        value(p.demand, mj.time), value(p.demand, mj.time + preview(p.driver, body.speed)),
+        _demand(p, mj.time), _demand(p, mj.time + preview(p.driver, body.speed)),
         speed, slope(p.speed, mj.time), body.speed, body.yaw_rate, body.yaw + body.sideslip,
     )  # fmt: skip
     rates = _angular_velocity(mj, int(at.body))
@@ -196,8 +198,17 @@ def act(world, mj) -> None:
         (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
     )  # fmt: skip
     apply_bar_torques(at.bars, mj, front, rear)
+    check_circuit(world, p.stabilizers.front, later.stabilizers.front.circuit, mj.time)
+    check_circuit(world, p.stabilizers.rear, later.stabilizers.rear.circuit, mj.time)
     driver = steer + front_torque + rear_torque + out.driver.course_error + later.driver.trim
     check_finite(world, total + front + rear + driver, mj.time)
+
+
+@kernel
+def _demand(p, time):
+    # what the driver is asked for: curvature (1/m), or in open loop the steering angle (rad)
+    demand = value(p.demand, time)
+    return demand / max(value(p.speed, time), WALKING) ** 2 if p.demand_over_speed == 1.0 else demand
 
 
 @kernel
@@ -270,23 +281,30 @@ def _corner(p, settings, now, later, out, mj, rates, i, h):
     return fx + fy + fz
 
 
+SIZE, VERSION = WORLD.itemsize // 8, layout_version(WORLD)
 world_at = record_at(WORLD)
 
 
 def _control(model, data):
-    step(world_at(world_address(model, data)), fields(data))
+    address = world_address(model, data, SIZE, VERSION)
+    if address != 0:
+        step(world_at(address), fields(data))
 
 
 @entry
 def native_sense(model: int, data: int) -> None:
     """`sense` for mjModel and mjData at these addresses."""
-    sense(world_at(world_address(model, data)), fields(data))
+    address = world_address(model, data, SIZE, VERSION)
+    if address != 0:
+        sense(world_at(address), fields(data))
 
 
 @entry
 def native_act(model: int, data: int) -> None:
     """`act` for mjModel and mjData at these addresses."""
-    act(world_at(world_address(model, data)), fields(data))
+    address = world_address(model, data, SIZE, VERSION)
+    if address != 0:
+        act(world_at(address), fields(data))
 
 
 CALLBACK = NativeCallback(SIGNATURE, _control)

@@ -19,7 +19,7 @@ def set_up(start: Start, cycle: Cycle, actuator: Actuator, controller: Controlle
         raise InputError(f"actuator '{actuator.kind}' has nothing to command on the bench; allowed: pump_controlled")
     parameters, manoeuvre = start.parameters, cycle.manoeuvre
     stabilizers = parameters.stabilizers
-    fill_axle(stabilizers.front, actuator, "front", vehicle.stiffness, 0.0, stabilizers.loop, start.step)
+    fill_axle(stabilizers.front, actuator, "front", vehicle.stiffness, 0.0, start.step)
     parameters.command, parameters.ends = manoeuvre.command.signal(), manoeuvre.ends.signal()
     parameters.arm, parameters.ends_height = vehicle.arm, vehicle.height - vehicle.link_length
     if np.abs(parameters.ends.values).max() >= vehicle.arm:

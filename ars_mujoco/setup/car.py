@@ -1,12 +1,13 @@
 """What the set-ups of both cars share: addresses, stabilizers, and the reference with its map from the statics."""
 
 import mujoco
+import numpy as np
 
 from ars_mujoco.actuators.actuator import Actuator, PumpControlled, fill_axle
 from ars_mujoco.control.controller import Controller
-from ars_mujoco.errors import InputError
+from ars_mujoco.errors import ArsError, InputError
 from ars_mujoco.parameters import fill
-from ars_mujoco.vehicle import statics
+from ars_mujoco.vehicle.reference_map import reference_map
 from ars_mujoco.vehicle.roll_plane import RollPlane
 from ars_mujoco.vehicle.sedan import GRAVITY, Sedan
 
@@ -23,7 +24,7 @@ def fill_addresses(record, values: dict) -> None:
 def fill_stabilizers(record, actuator: Actuator, front_bar, rear_bar, step: float) -> None:
     """Write both axles of `actuator`; the bars give their stiffnesses."""
     for axle, bar in (("front", front_bar), ("rear", rear_bar)):
-        fill_axle(record[axle], actuator, axle, bar.stiffness, bar.passive_stiffness, record.loop, step)
+        fill_axle(record[axle], actuator, axle, bar.stiffness, bar.passive_stiffness, step)
 
 
 def fill_reference(
@@ -37,7 +38,15 @@ def fill_reference(
         fill(record[name], getattr(reference, name))
     record.gravity = GRAVITY
     if isinstance(actuator, PumpControlled):
-        table = statics.reference_map(model, vehicle, tuple(reference.target), reference.front_share)
+        try:
+            table = reference_map(model, vehicle, reference.target, reference.front_share)
+        except ArsError as error:
+            raise InputError(f"controller.reference.target: this vehicle does not hold it: {error}") from None
+        if not (np.diff(table.reading) > 0.0).all():
+            raise InputError(
+                "controller.reference.target: the roll falls so steeply that the accelerometer, which feels a part of "
+                "gravity, reads less at more lateral acceleration"
+            )
         record.map.count = len(table.reading)
         columns = {
             "sensor": table.reading, "roll": table.roll, "front": table.front_angle, "rear": table.rear_angle,

@@ -76,17 +76,15 @@ def _let_drive(start: Start, cycle: Cycle) -> None:
         parameters.demand = signal([manoeuvre.start, manoeuvre.start + manoeuvre.ramp], [0.0, angle], "linear")
         parameters.driver.open_loop = 1.0
     else:
-        parameters.demand = _curvature(cycle)
+        parameters.demand = _path(manoeuvre)
+        parameters.demand_over_speed = isinstance(manoeuvre, Follow)
 
 
-def _curvature(cycle: Cycle) -> np.record:
-    """The path's curvature (1/m) over time."""
-    match cycle.manoeuvre:
+def _path(manoeuvre: Follow | Circle | Straight) -> np.record:
+    """The path over time: its curvature (1/m), or the lateral acceleration (m/s^2) it is followed at."""
+    match manoeuvre:
         case Follow(lateral_acceleration=wanted):
-            speeds = cycle.speed_signal()
-            times, accelerations = zip(*wanted.knots, strict=True)
-            speed = np.interp(times, speeds.times[: int(speeds.count)], speeds.values[: int(speeds.count)])
-            return signal(times, np.divide(accelerations, speed**2), wanted.join)
+            return wanted.signal()
         case Circle(radius=radius):
             return signal([0.0, CIRCLE_ENTRY], [0.0, 1.0 / radius])
         case Straight():

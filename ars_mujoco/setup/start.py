@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 
 from ars_mujoco.cycle import Cycle
+from ars_mujoco.errors import InputError
 from ars_mujoco.law import Law
 from ars_mujoco.simulation import Simulation
 from ars_mujoco.world import NUMERIC, new_world
@@ -23,11 +24,18 @@ class Start:
 
     @cached_property
     def simulation(self) -> Simulation:
-        """The simulation, compiled with room for the world in userdata and in the last custom numeric."""
+        """The simulation, compiled with room for the world in userdata and in the last custom numeric.
+
+        Raises InputError where MuJoCo refuses the vehicle's model.
+        """
         size = self.world.nbytes // 8
         self.spec.nuserdata = size
         self.spec.add_numeric(name=NUMERIC, size=size, data=np.zeros(size))
-        return Simulation(self.rig, self.spec.compile(), self.cycle.duration, self.cycle.title, self.law)
+        try:
+            model = self.spec.compile()
+        except ValueError as error:
+            raise InputError(f"vehicle: MuJoCo refuses its model: {'; '.join(str(error).splitlines())}") from None
+        return Simulation(self.rig, model, self.cycle.duration, self.cycle.title, self.law)
 
     def stored(self) -> Simulation:
         """The simulation, with the world as it is now written into its model."""

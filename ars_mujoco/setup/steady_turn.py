@@ -2,11 +2,14 @@
 
 from dataclasses import replace
 
+from ars_mujoco.errors import InputError
 from ars_mujoco.setup.start import Start
 from ars_mujoco.signal import signal
 from ars_mujoco.simulation import simulate
 
 ENTRY, SETTLED, END = 1.5, 4.5, 5.0  # s: bent into the turn, from where it is read, its end
+TOLERANCE = 0.1  # of the lateral acceleration, within which the steering angle is scaled to what is wanted
+G = 9.80665  # m/s^2, as units count lateral acceleration
 BRISK = 6.0  # m/s^2, of the turn from which the driver learns the car
 
 
@@ -18,7 +21,12 @@ def understeer(start: Start) -> float:
 
 def steering_angle(start: Start, acceleration: float) -> float:
     """Steering angle (rad) at which the car reaches a lateral acceleration (m/s^2) at the cycle's first speed."""
-    steer, reached, _ = steady_turn(start, acceleration)
+    steer, reached, speed = steady_turn(start, acceleration)
+    if abs(reached - acceleration) > TOLERANCE * abs(acceleration):
+        raise InputError(
+            f"manoeuvre.lateral_acceleration: this car reaches {reached / G:.2f} g at {3.6 * speed:.0f} km/h, "
+            f"not {acceleration / G:.2f} g"
+        )
     return steer * acceleration / reached
 
 

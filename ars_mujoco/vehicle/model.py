@@ -48,7 +48,7 @@ def _roll_plane(vehicle: RollPlane) -> mujoco.MjSpec:
     spec = _load("roll_plane")
     body, joint = spec.body("body"), spec.joint("roll")
     body.mass, body.ipos = vehicle.mass, [0, 0, vehicle.cg_height]
-    body.inertia = [vehicle.roll_inertia, *body.inertia[1:]]
+    body.inertia *= vehicle.roll_inertia / body.inertia[0]  # only rolls; in proportion, any value is a possible body's
     joint.pos = [0, 0, vehicle.roll_axis_height]
     joint.stiffness[0], joint.damping[0] = vehicle.roll_stiffness, vehicle.roll_damping
     spec.site("accelerometer").pos = [0, 0, vehicle.accelerometer_height]

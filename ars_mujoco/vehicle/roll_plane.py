@@ -6,11 +6,11 @@ from ars_mujoco.parameters import Parameters, Quantity
 class RollPlaneBar(Parameters):
     """Stabilizer bar of one axle, its drop links standing on the ground."""
 
-    arm: Quantity("m", gt=0)
+    arm: Quantity("m", ge=0.04)  # a shorter one turns too far as its drop link travels by that much
     stiffness: Quantity("Nm/rad", gt=0)  # torsion of the split bar, both halves in series
     passive_stiffness: Quantity("Nm/rad", ge=0)  # torsion of the conventional bar in its place
     link_distance: Quantity("m", gt=0)  # between the left and the right drop link
-    link_length: Quantity("m", gt=0)
+    link_length: Quantity("m", ge=0.02)  # a shorter one tilts too far as the arm's end swings
     height: Quantity("m", gt=0)  # of the bar's axis above the road
     position: Quantity("m")  # of the drop links ahead of the centre of gravity
 

@@ -6,6 +6,8 @@ z up from the road.
 
 import math
 
+from pydantic import ValidationInfo, field_validator, model_validator
+
 from ars_mujoco.parameters import Number, Parameters, Quantity
 from ars_mujoco.tires.tire import Tire
 
@@ -21,15 +23,27 @@ class Sprung(Parameters):
     yaw_inertia: Quantity("kg*m^2", gt=0)
     cg_height: Quantity("m", gt=0)
 
+    @model_validator(mode="after")
+    def _is_a_possible_body(self):
+        inertias = {name: getattr(self, f"{name}_inertia") for name in ("roll", "pitch", "yaw")}
+        name, largest = max(inertias.items(), key=lambda each: each[1])
+        others = sum(inertias.values()) - largest
+        if largest > others:
+            raise ValueError(
+                f"{name}_inertia of {largest:g} kg*m^2 is more than the other two together, {others:g} kg*m^2: "
+                "no body has that"
+            )
+        return self
+
 
 class Bar(Parameters):
     """Stabilizer bar of one axle, its arms pointing rearward and its drop links in the plane of the axle."""
 
-    arm: Quantity("m", gt=0)
+    arm: Quantity("m", ge=0.04)  # a shorter one turns too far as its drop link travels by that much
     stiffness: Quantity("Nm/rad", gt=0)  # torsion of the split bar, both halves in series
     passive_stiffness: Quantity("Nm/rad", ge=0)  # torsion of the conventional bar in its place
     link_ratio: Number(gt=0, lt=1)  # travel of the drop link over travel of the wheel
-    link_length: Quantity("m", gt=0)
+    link_length: Quantity("m", ge=0.02)  # a shorter one tilts too far as the arm's end swings
     height: Quantity("m", gt=0)  # of the bar's axis above the road
 
 
@@ -38,7 +52,8 @@ class Axle(Parameters):
 
     track: Quantity("m", gt=0)
     roll_centre_height: Quantity("m")
-    camber_gain: Quantity("rad/m", gt=0)  # camber change over wheel travel, top inwards in jounce
+    # camber change over wheel travel, top inwards in jounce; more would be a swing arm that folds under the car
+    camber_gain: Quantity("rad/m", gt=0, le=3)
     wheel_rate: Quantity("N/m", gt=0)
     damping: Quantity("Ns/m", ge=0)
     unsprung_mass: Quantity("kg", gt=0)  # the wheel included
@@ -46,6 +61,14 @@ class Axle(Parameters):
     spin_inertia: Quantity("kg*m^2", gt=0)
     bar: Bar
     tire: Tire
+
+    @field_validator("wheel_mass")
+    @classmethod
+    def _is_a_part(cls, wheel_mass, info: ValidationInfo):
+        unsprung = info.data.get("unsprung_mass", math.inf)
+        if wheel_mass >= unsprung:
+            raise ValueError(f"must be less than the unsprung_mass it is a part of, {unsprung:g} kg")
+        return wheel_mass
 
     @property
     def swing_arm(self) -> float:
@@ -84,6 +107,35 @@ class Sedan(Parameters):
     rear: Axle
     steering: Steering
     accelerometer: SensorPlace
+
+    @field_validator("cg_to_front_axle")
+    @classmethod
+    def _lies_between_the_axles(cls, ahead, info: ValidationInfo):
+        wheelbase = info.data.get("wheelbase", math.inf)
+        if ahead >= wheelbase:
+            raise ValueError(f"must be less than the wheelbase, {wheelbase:g} m: the car would tip over")
+        return ahead
+
+    @field_validator("steering")
+    @classmethod
+    def _leaves_the_carrier_a_mass(cls, steering, info: ValidationInfo):
+        front = info.data.get("front")
+        if front and front.wheel_mass + steering.knuckle_mass >= front.unsprung_mass:
+            raise ValueError(
+                f"knuckle_mass and front.wheel_mass, {front.wheel_mass + steering.knuckle_mass:g} kg together, "
+                f"must be less than front.unsprung_mass, {front.unsprung_mass:g} kg"
+            )
+        return steering
+
+    @model_validator(mode="after")
+    def _stands_on_its_tires(self):
+        for name, axle in self.axles.items():
+            if self.wheel_centre_height[name] <= 0.0:
+                raise ValueError(
+                    f"{name}.tire.stiffness of {axle.tire.stiffness:g} N/m is too little: the wheel's load of "
+                    f"{self.wheel_load[name]:.0f} N presses the tire in by more than its radius, {axle.tire.radius:g} m"
+                )
+        return self
 
     @property
     def axles(self) -> dict[str, Axle]:

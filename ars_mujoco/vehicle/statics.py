@@ -22,7 +22,6 @@ from ars_mujoco.vehicle.sedan import GRAVITY, Sedan
 
 AXLES = ("front", "rear")
 HELD = ("_steer", "_spin")  # joints that a steady turn holds or leaves alone
-TARGET = ((0.0, 0.0), (0.3 * GRAVITY, 0.0), (0.6 * GRAVITY, math.radians(0.3)), (0.8 * GRAVITY, math.radians(1.3)))
 RESIDUAL = 1e-7  # largest acceleration left, m/s^2 and rad/s^2
 DISPLACEMENT = 1e-6  # of the finite differences, m and rad
 TORQUE = 1000.0  # Nm, the size of the unknown torque beside angles and lengths of order 1
@@ -42,19 +41,6 @@ class Equilibrium:
     qpos: np.ndarray  # (nq,)
 
 
-@dataclass(frozen=True)
-class ReferenceMap:
-    """Bar angles over the sensor's reading; arrays of shape (n,), SI units."""
-
-    lateral_acceleration: np.ndarray
-    reading: np.ndarray
-    roll: np.ndarray
-    front_angle: np.ndarray
-    rear_angle: np.ndarray
-    front_torque: np.ndarray
-    rear_torque: np.ndarray
-
-
 def roll_gradient(model: mujoco.MjModel, vehicle: Sedan | RollPlane, bars: str) -> float:
     """Roll gradient (deg/g) over 0.1 to 0.4 g with bars `none`, `passive` or `locked`; least squares."""
     statics, lateral = Statics(model, vehicle), np.array([0.1, 0.2, 0.3, 0.4])
@@ -67,58 +53,6 @@ def bar_stiffness(vehicle: Sedan | RollPlane, bars: str) -> np.ndarray:
     axles = (vehicle.front.bar, vehicle.rear.bar) if isinstance(vehicle, Sedan) else (vehicle.front, vehicle.rear)
     of = {"none": lambda bar: 0.0, "passive": lambda bar: bar.passive_stiffness, "locked": lambda bar: bar.stiffness}
     return np.array([of[bars](bar) for bar in axles])
-
-
-def reference_map(
-    model: mujoco.MjModel,
-    vehicle: Sedan | RollPlane,
-    target: tuple[tuple[float, float], ...] = TARGET,
-    front_share: float = 0.6,
-    largest: float = 1.1 * GRAVITY,
-    points: int = 24,
-) -> ReferenceMap:
-    """The bar angles that hold the body at `target`, knots of (lateral acceleration m/s^2, roll rad) from (0, 0) on.
-
-    Beyond the last knot its slope goes on, up to `largest` or as far as the car stands on its wheels; `front_share` of
-    the bars' torque is the front's. At most `points` rows, the knots among them. A bar's angle is its twist plus what
-    its torsion needs: phi = psi + M / c.
-    Raises ArsError where the target itself cannot be held.
-    """
-    statics, knots = Statics(model, vehicle), np.array(target)
-    stiffness = bar_stiffness(vehicle, "locked")
-    rows: list[Equilibrium] = []
-    for lateral in _rows(knots[:, 0], largest, points):
-        try:
-            rows.append(statics.held(lateral, _on_target(knots, lateral), front_share))
-        except ArsError:
-            if lateral <= knots[-1, 0]:
-                raise
-            break
-    torque = np.array([row.torque for row in rows])
-    angle = np.array([row.twist for row in rows]) + torque / stiffness
-    return ReferenceMap(
-        lateral_acceleration=np.array([row.lateral_acceleration for row in rows]),
-        reading=np.array([row.reading for row in rows]),
-        roll=np.array([row.roll for row in rows]),
-        front_angle=angle[:, 0],
-        rear_angle=angle[:, 1],
-        front_torque=torque[:, 0],
-        rear_torque=torque[:, 1],
-    )
-
-
-def _rows(knots: np.ndarray, largest: float, points: int) -> np.ndarray:
-    """The knots and an even grid up to `largest`, less what of it falls on a knot; at most `points` in all."""
-    grid = np.linspace(0.0, largest, points - len(knots) + 1)
-    apart = np.abs(grid[:, None] - knots).min(axis=1) > 1e-3 * largest
-    return np.sort(np.append(knots, grid[apart]))
-
-
-def _on_target(knots: np.ndarray, lateral_acceleration: float) -> float:
-    """Target roll (rad), linear between the knots and on beyond the last with its slope."""
-    last = min(np.searchsorted(knots[:, 0], lateral_acceleration, side="right"), len(knots) - 1)
-    (x0, y0), (x1, y1) = knots[last - 1], knots[last]
-    return y0 + (y1 - y0) * (lateral_acceleration - x0) / (x1 - x0)
 
 
 class Statics:
@@ -186,7 +120,7 @@ class Statics:
             else:
                 self.jacobian = np.empty((0, 0))  # too far from where it was taken
         lateral = -self.model.opt.gravity[1] / GRAVITY
-        raise ArsError(f"no steady turn at {lateral:.2f} g: a wheel lifts before the bars' torque is reached")
+        raise ArsError(f"no steady turn at {lateral:.2f} g: a wheel lifts or a drop link is out of reach")
 
     def _place(self, displacement: np.ndarray) -> None:
         """Move the free coordinates by `displacement` from the last solved pose; positions follow."""
@@ -293,7 +227,8 @@ def _patch(data: mujoco.MjData, wheel: int, tire: Tire) -> tuple[float, float, f
 def _lateral_shares(patches: np.ndarray, cg: float) -> np.ndarray:
     """Share (4,) of each tire in the lateral force that turns a car with its centre of gravity at x = `cg` (m)."""
     position, load = patches[:, 0].reshape(2, 2), patches[:, 3].reshape(2, 2)
-    of_axle = load / load.sum(axis=1, keepdims=True)
+    with np.errstate(invalid="ignore"):  # an axle off the road: its NaN ends Newton's method
+        of_axle = load / load.sum(axis=1, keepdims=True)
     front, rear = (position * of_axle).sum(axis=1)
     axle = np.array([cg - rear, front - cg]) / (front - rear)
     return (axle[:, None] * of_axle).ravel()

@@ -10,7 +10,9 @@ from radau import ATOL, State, VerificationSet, derivative, powers
 from records import blank
 from scipy.integrate import solve_ivp
 
-from ars_mujoco.hydraulics.reduced_circuit import CircuitEnergy, CircuitState, advance, substeps
+from ars_mujoco.errors import InputError
+from ars_mujoco.hydraulics.reduced_circuit import CircuitEnergy, CircuitState, advance
+from ars_mujoco.hydraulics.substeps import substeps
 
 GAIN = 60.0  # 1/rad
 COMMAND = (2e-3, 0.04, -0.3)  # rad, rad/s, rad/s^2: at no time over 0.2 deg, where no limit is met
@@ -101,3 +103,16 @@ def test_half_the_substeps_of_the_stiffest_corner_would_not_be_stable():
     parameters.motor.inertia = 0.1
     z = np.linalg.eigvals(linearized(parameters, GAIN)[0]) * 1e-3 / (substeps(parameters, STIFFNESS, 1e-3) / 2)
     assert amplification(z) > 1.0
+
+
+def test_a_circuit_faster_than_any_sensible_number_of_substeps_is_refused():
+    parameters = circuit()
+    parameters.line.capacitance = 1e-20
+    with pytest.raises(InputError, match="fastest eigenvalue, .* needs more than 200 substeps of 1 ms"):
+        substeps(parameters, STIFFNESS, 1e-3)
+
+
+def test_a_faster_valve_gets_more_substeps():
+    parameters = circuit()
+    parameters.servo_valve.frequency = 2e4
+    assert substeps(parameters, STIFFNESS, 1e-3) > 8

@@ -6,6 +6,7 @@ import pytest
 import shipped
 
 from ars_mujoco.callback import installed
+from ars_mujoco.errors import InputError, SimulationError
 from ars_mujoco.inputs import read_inputs
 from ars_mujoco.metrics import G
 from ars_mujoco.simulation import simulate
@@ -190,3 +191,35 @@ def test_roll_damping_gives_back_what_the_delay_takes(damping):
     late = np.degrees(abs(recording["body.roll"][recording.time > 3.0])).max()
     print(f"roll from 2 s after the bump on, damping {damping}: {late:.3f} deg")
     assert late > 0.05 if damping == "0 s" else late < 0.02
+
+
+def test_a_path_is_followed_at_the_lateral_acceleration_asked_while_the_speed_falls(tmp_path):
+    cycle = tmp_path / "braking.yaml"
+    cycle.write_text("""
+title: Braking in a bend
+description: 0.3 g while the speed falls.
+rig: sedan
+duration: 10 s
+manoeuvre:
+  kind: follow
+  lateral_acceleration: {knots: [[0 s, 0 g], [2 s, 0.3 g]]}
+  speed: {join: linear, knots: [[0 s, 100 km/h], [3 s, 100 km/h], [10 s, 70 km/h]]}
+""")
+    recording = simulate(simulation_of(read_inputs(str(cycle), actuator="passive")))
+    steady = recording["body.lateral_acceleration"][recording.time > 4.0] / G
+    assert 0.28 < steady.min() < steady.max() < 0.32
+
+
+def test_a_step_steer_beyond_the_tires_is_refused():
+    settings = ["manoeuvre.lateral_acceleration=2 g"]
+    with pytest.raises(InputError, match=r"this car reaches 0\.\d\d g at \d+ km/h, not 2\.00 g"):
+        simulation_of(read_inputs(STEP_STEER, actuator="passive", settings=settings))
+
+
+def test_a_circuit_that_leaves_what_is_physical_stops_the_run():
+    simulation = simulation_of(read_inputs("bench_step_10deg"))
+    numbers = simulation.model.numeric_data[-simulation.model.nuserdata :]
+    world = numbers.view(simulation.rig.WORLD).view(np.recarray)[0]
+    world.parameters.stabilizers.front.circuit.line.capacitance = 1e-17  # with the substeps of 6e-14
+    with pytest.raises(SimulationError, match=r"left what is physical at 0\.\d+ s.*front\.motor\.pressure|diverged"):
+        simulate(simulation)
