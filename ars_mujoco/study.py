@@ -11,8 +11,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ars_mujoco.actuators.actuator import PumpControlled
-from ars_mujoco.errors import ArsError, SimulationError
+from ars_mujoco.errors import ArsError, InputError, SimulationError
 from ars_mujoco.inputs import Inputs
 from ars_mujoco.metrics import Run, Value, measure
 from ars_mujoco.recording.comparison import write_comparison
@@ -66,9 +68,12 @@ def study(
 
 
 def simulation_of(inputs: Inputs) -> Simulation:
-    """The simulation of `inputs`, which it keeps for its recording."""
+    """The simulation of `inputs`, which it keeps for its recording. Raises InputError where they cannot be set up."""
     parts = (inputs.cycle.value, inputs.actuator.value, inputs.controller.value, inputs.vehicle.value)
-    return replace(prepare(*parts), inputs=inputs.record())
+    try:
+        return replace(prepare(*parts), inputs=inputs.record())
+    except (np.linalg.LinAlgError, ArithmeticError) as error:  # values that are allowed one by one, but not together
+        raise InputError(f"vehicle '{inputs.vehicle.name}': its statics cannot be computed: {error}") from None
 
 
 def told_apart(names: Iterable[str]) -> list[str]:

@@ -137,6 +137,10 @@ def test_check_fails_a_cycle_that_does_not(ars, tmp_path):
             "small.yaml/out/pump_controlled: cannot be written to: Not a directory",
         ),
         (
+            ["run", "roll_plane_step", "--set", "vehicle.mass=1e300 kg"],
+            "vehicle 'roll_plane': its statics cannot be computed: Singular matrix",
+        ),
+        (
             ["run", "small.yaml", "--actuator", "passive", "--set", "actuator=locked"],
             "--set actuator=locked: the actuator is also named as 'passive'; name one of them",
         ),

@@ -36,7 +36,7 @@ def test_poses_and_channels_are_of_the_same_moment():
 def test_the_chunks_are_the_recording():
     chunks = []
     recording = simulate(shipped.simulation("step_steer_iso7401"), chunks.append)
-    assert [round(chunk.time[0], 3) for chunk in chunks] == [0.0, 2.0, 4.0, 5.0]  # the last sample is taken without a step
+    assert [round(chunk.time[0], 3) for chunk in chunks] == [0.0, 2.0, 4.0, 5.0]  # the last sample needs no step
     for name in ("time", "values", "pose_time", "poses"):
         np.testing.assert_array_equal(getattr(joined(chunks), name), getattr(recording, name))
 

@@ -29,7 +29,7 @@ class Axle(Parameters):
     """Parameters of one axle's stabilizer."""
 
     kind: Number()  # NO_BAR, TORSION_BAR (passive, or the active bar locked) or PUMP_CONTROLLED
-    stiffness: Quantity("N*m/rad", ge=0)  # torsion of the bar, both halves in series
+    stiffness: Quantity("Nm/rad", ge=0)  # torsion of the bar, both halves in series
     substeps: Number(ge=0)  # of the circuit in a physics step
     circuit: ReducedCircuit
 
@@ -39,7 +39,7 @@ class AxleState(Parameters):
 
     circuit: CircuitState
     energy: CircuitEnergy
-    torque: Signal("N*m", "mean bar torque over the last step")
+    torque: Signal("Nm", "mean bar torque over the last step")
     twist_rate: Signal("rad/s", "rate of the twist at the start of the last step")
     work: Signal("J", "work of the bar on the car up to the start of the last step")
 
@@ -48,7 +48,7 @@ class BarOutput(Parameters):
     angle: Signal("rad", "angle of the motor between the bar's halves")
     command: Signal("rad", "commanded angle")
     twist: Signal("rad", "angle of the left arm less that of the right, positive with the left wheel in jounce")
-    torque: Signal("N*m", "torque of the bar, positive pushes the body to negative roll; mean over the coming step")
+    torque: Signal("Nm", "torque of the bar, positive pushes the body to negative roll; mean over the coming step")
 
 
 class MotorOutput(Parameters):

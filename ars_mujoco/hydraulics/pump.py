@@ -11,7 +11,7 @@ class Pump(Parameters):
     displacement: Quantity("m^3/rad", gt=0)  # V_p/2pi at full stroke
     speed: Quantity("rad/s", gt=0)  # shaft speed
     leakage: Quantity("m^3/s/Pa", ge=0)  # the pump's share of k_Li
-    loss_torque: Quantity("N*m", ge=0)  # normal value of the torque loss polynomial
+    loss_torque: Quantity("Nm", ge=0)  # normal value of the torque loss polynomial
     loss_constant: Number(ge=0)  # its coefficients: constant,
     loss_speed: Number(ge=0)  # of n^,
     loss_pressure: Number(ge=0)  # of p^,

@@ -12,13 +12,13 @@ class VaneMotor(Parameters):
     displacement: Quantity("m^3/rad", gt=0)  # D = V_M/2pi
     inertia: Quantity("kg*m^2", gt=0)  # Theta, the bar's halves included
     leakage: Quantity("m^3/s/Pa", ge=0)  # the motor's share of k_Li
-    coulomb_friction: Quantity("N*m", ge=0)  # r_C
-    static_friction: Quantity("N*m", ge=0)  # r_H, above r_C at standstill
+    coulomb_friction: Quantity("Nm", ge=0)  # r_C
+    static_friction: Quantity("Nm", ge=0)  # r_H, above r_C at standstill
     static_decay: Quantity("s/rad", ge=0)  # tau_H
-    viscous_friction: Quantity("N*m*s/rad", ge=0)  # r_v
+    viscous_friction: Quantity("Nms/rad", ge=0)  # r_v
     friction_speed: Quantity("rad/s", gt=0)  # w_s, over which the friction's sign is rounded
     stop_angle: Quantity("rad", gt=0)  # phi_n, the vane's mechanical stop
-    stop_stiffness: Quantity("N*m/rad", ge=0)  # of that stop
+    stop_stiffness: Quantity("Nm/rad", ge=0)  # of that stop
 
 
 @kernel

@@ -86,7 +86,7 @@ def _axle(time: np.ndarray, g: np.ndarray, axle: str) -> dict[str, tuple[str, np
         "bar.angle": ("rad", angle),
         "bar.command": ("rad", 1.02 * angle),
         "bar.twist": ("rad", 0.3 * angle),
-        "bar.torque": ("N*m", torque),
+        "bar.torque": ("Nm", torque),
         "motor.pressure": ("Pa", 1e5 * torque / 8),
         "motor.rate": ("rad/s", rate),
         "motor.output_power": ("W", power),
