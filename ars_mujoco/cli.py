@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from ars_mujoco import library
-from ars_mujoco.errors import ArsError, InputError
+from ars_mujoco.errors import ArsError, InputError, SimulationError
 
 app = typer.Typer(
     help="A testbed for active stabilizer bars.",
@@ -105,9 +105,12 @@ def check(
     compared = [read_compared(cycle, [None]) for cycle in cycles or library.shipped("cycle")]
     names = told_apart(runs[0].cycle.name for runs, _ in compared)
     for name, (runs, references) in zip(names, compared, strict=True):
-        with _progress() as progress:
-            (result,) = study(runs, references, None, progress)
-        failures = [str(failure) for failure in failures_of(runs[0].cycle.value.expect, result.metrics)]
+        try:
+            with _progress() as progress:
+                (result,) = study(runs, references, None, progress)
+            failures = [str(failure) for failure in failures_of(runs[0].cycle.value.expect, result.metrics)]
+        except SimulationError as error:
+            failures = [str(error)]
         verdicts[name] = {"passed": not failures, "failures": failures}
         if not as_json:
             print("\n      ".join([f"{'FAIL' if failures else 'pass'}  {name}", *failures]))

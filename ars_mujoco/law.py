@@ -100,9 +100,13 @@ def _callback(rig, command) -> NativeCallback:
     return NativeCallback(SIGNATURE, control, cached=False)
 
 
-@cache
 def law(path: Path) -> Law:
-    """The Law of a file, made once a process. Raises InputError where the file holds none."""
+    """The Law of a file, made once a process for each content. Raises InputError where the file holds none."""
+    return _law(path, path.resolve(), path.read_bytes())
+
+
+@cache
+def _law(path: Path, _place: Path, _content: bytes) -> Law:
     return Law(path)
 
 
