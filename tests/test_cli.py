@@ -7,6 +7,7 @@ import time
 
 import pyarrow.parquet as pq
 import pytest
+from typer.testing import CliRunner
 
 from ars_mujoco import cli
 
@@ -194,3 +195,21 @@ def test_list_is_quick():
     command = [sys.executable, "-c", "from ars_mujoco.cli import main; main()", "list"]
     assert b"s_curve_120kmh" in subprocess.run(command, capture_output=True, check=True).stdout
     assert time.perf_counter() - start < 0.7
+
+
+def test_check_reports_a_cycle_that_diverges_and_goes_on(monkeypatch):
+    from ars_mujoco import study as studies
+    from ars_mujoco.errors import SimulationError
+
+    real = studies.study
+
+    def diverge(runs, *rest):
+        if runs[0].cycle.name == "bench_step_1deg":
+            raise SimulationError("the run diverged at 0.100 s", 0.1, "front.bar.angle")
+        return real(runs, *rest)
+
+    monkeypatch.setattr(studies, "study", diverge)
+    result = CliRunner().invoke(cli.app, ["check", "bench_step_1deg", "bench_step_10deg"])
+    assert result.exit_code == 1
+    assert "FAIL  bench_step_1deg\n      the run diverged at 0.100 s" in result.output
+    assert "pass  bench_step_10deg" in result.output
