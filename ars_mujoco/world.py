@@ -86,11 +86,16 @@ def check_finite(world, value: float, time: float) -> None:
 
 
 @kernel
-def check_circuit(world, axle, circuit, time: float) -> None:
-    """Record that an axle's circuit has left all that is physical: its substeps burst, or the vane passed its stop."""
-    beyond = abs(circuit.pressure) > BURST_PRESSURE or abs(circuit.angle) > 2.0 * axle.circuit.motor.stop_angle
-    if axle.kind == PUMP_CONTROLLED and beyond:
+def check_circuits(world, stabilizers, state, time: float) -> None:
+    """Record that a circuit has left all that is physical: its substeps burst, or its vane went far past the stop."""
+    if _is_beyond(stabilizers.front, state.front.circuit) or _is_beyond(stabilizers.rear, state.rear.circuit):
         stop(world, BURST, time)
+
+
+@kernel
+def _is_beyond(axle, circuit) -> bool:
+    too_far = abs(circuit.angle) > 2.0 * axle.circuit.motor.stop_angle
+    return axle.kind == PUMP_CONTROLLED and (too_far or abs(circuit.pressure) > BURST_PRESSURE)
 
 
 @kernel

@@ -12,7 +12,7 @@ from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import stabilizers
 from ars_mujoco.rigs.stabilizers import stabilize_both
 from ars_mujoco.signal import SIGNAL, slope, value
-from ars_mujoco.world import begin, check_circuit, check_finite, layout_version, world_dtype
+from ars_mujoco.world import begin, check_circuits, check_finite, layout_version, world_dtype
 
 NAME = "bench"
 
@@ -60,7 +60,7 @@ def step(world, mj) -> None:
         p.stabilizers, world.now.stabilizers, world.later.stabilizers, world.out.front, world.scratch.rear,
         mj.time, h, parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0, 0.0),
     )  # fmt: skip
-    check_circuit(world, p.stabilizers.front, world.later.stabilizers.front.circuit, mj.time)
+    check_circuits(world, p.stabilizers, world.later.stabilizers, mj.time)
     check_finite(world, front, mj.time)
 
 

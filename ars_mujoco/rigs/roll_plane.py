@@ -11,9 +11,16 @@ from ars_mujoco.kernel import NativeCallback, entry, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import reference, stabilizers
 from ars_mujoco.rigs.reference import SensorOutput, own_reference, read_accelerometer
-from ars_mujoco.rigs.stabilizers import BAR_ADDRESSES, apply_bar_torques, bar_addresses, stabilize_both, twist
+from ars_mujoco.rigs.stabilizers import (
+    BAR_ADDRESSES,
+    apply_bar_torques,
+    bar_addresses,
+    sense_circuits,
+    stabilize_both,
+    twist,
+)
 from ars_mujoco.signal import SIGNAL, value
-from ars_mujoco.world import begin, check_circuit, check_finite, layout_version, world_dtype
+from ars_mujoco.world import begin, check_circuits, check_finite, layout_version, world_dtype
 
 NAME = "roll_plane"
 NO_SPEED = 100.0  # m/s; the rig has none, and a controller that fades in with speed must act
@@ -101,9 +108,7 @@ def sense(world, mj) -> None:
     sensors.time, sensors.step = mj.time, max(p.stabilizers.unit.sample_time, h)
     sensors.roll, sensors.roll_rate = out.body.roll, rate
     sensors.speed = NO_SPEED
-    front, rear = now.stabilizers.front.circuit, now.stabilizers.rear.circuit
-    sensors.front_angle, sensors.rear_angle = front.angle, rear.angle
-    sensors.front_pressure, sensors.rear_pressure = front.pressure, rear.pressure
+    sense_circuits(sensors, now.stabilizers)
 
 
 @kernel
@@ -118,8 +123,7 @@ def act(world, mj) -> None:
         (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
     )  # fmt: skip
     apply_bar_torques(at.bars, mj, front, rear)
-    check_circuit(world, p.stabilizers.front, later.stabilizers.front.circuit, mj.time)
-    check_circuit(world, p.stabilizers.rear, later.stabilizers.rear.circuit, mj.time)
+    check_circuits(world, p.stabilizers, later.stabilizers, mj.time)
     check_finite(world, front + rear + out.body.roll + out.body.roll_rate, mj.time)
 
 

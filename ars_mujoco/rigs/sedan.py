@@ -19,11 +19,18 @@ from ars_mujoco.kernel import NativeCallback, entry, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import reference, stabilizers
 from ars_mujoco.rigs.reference import SensorOutput, own_reference, read_accelerometer
-from ars_mujoco.rigs.stabilizers import BAR_ADDRESSES, apply_bar_torques, bar_addresses, stabilize_both, twist
+from ars_mujoco.rigs.stabilizers import (
+    BAR_ADDRESSES,
+    apply_bar_torques,
+    bar_addresses,
+    sense_circuits,
+    stabilize_both,
+    twist,
+)
 from ars_mujoco.road import Bump, height_and_slope
 from ars_mujoco.signal import SIGNAL, slope, value
 from ars_mujoco.tires.tire import Tire, TireOutput, TireState, tire
-from ars_mujoco.world import begin, check_circuit, check_finite, layout_version, world_dtype
+from ars_mujoco.world import begin, check_circuits, check_finite, layout_version, world_dtype
 
 NAME = "sedan"
 CORNERS = ("fl", "fr", "rl", "rr")
@@ -164,9 +171,7 @@ def sense(world, mj) -> None:
     sensors.time, sensors.step = mj.time, max(p.stabilizers.unit.sample_time, h)
     sensors.roll, sensors.roll_rate = out.body.roll, out.body.roll_rate
     sensors.yaw_rate, sensors.speed, sensors.steer = out.body.yaw_rate, out.body.speed, now.driver.steer
-    front, rear = now.stabilizers.front.circuit, now.stabilizers.rear.circuit
-    sensors.front_angle, sensors.rear_angle = front.angle, rear.angle
-    sensors.front_pressure, sensors.rear_pressure = front.pressure, rear.pressure
+    sense_circuits(sensors, now.stabilizers)
 
 
 @kernel
@@ -198,8 +203,7 @@ def act(world, mj) -> None:
         (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
     )  # fmt: skip
     apply_bar_torques(at.bars, mj, front, rear)
-    check_circuit(world, p.stabilizers.front, later.stabilizers.front.circuit, mj.time)
-    check_circuit(world, p.stabilizers.rear, later.stabilizers.rear.circuit, mj.time)
+    check_circuits(world, p.stabilizers, later.stabilizers, mj.time)
     driver = steer + front_torque + rear_torque + out.driver.course_error + later.driver.trim
     check_finite(world, total + front + rear + driver, mj.time)
 

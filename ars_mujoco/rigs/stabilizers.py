@@ -99,3 +99,11 @@ def apply_bar_torques(bars, mj, front: float, rear: float) -> None:
     """Put the bar torques (Nm) on the halves' hinges: +M left, -M right."""
     mj.qfrc_applied[int(bars.velocity[0])], mj.qfrc_applied[int(bars.velocity[1])] = front, -front
     mj.qfrc_applied[int(bars.velocity[2])], mj.qfrc_applied[int(bars.velocity[3])] = rear, -rear
+
+
+@kernel
+def sense_circuits(sensors, now) -> None:
+    """Let the controller's sensors read both circuits."""
+    front, rear = now.front.circuit, now.rear.circuit
+    sensors.front_angle, sensors.rear_angle = front.angle, rear.angle
+    sensors.front_pressure, sensors.rear_pressure = front.pressure, rear.pressure
