@@ -15,7 +15,6 @@ import math
 import mujoco
 import numpy as np
 
-from ars_mujoco.actuators.axle import PUMP_CONTROLLED
 from ars_mujoco.kernel import kernel
 
 MAGIC = 4153115110.0  # marks an initialised world
@@ -23,8 +22,6 @@ NUMERIC = "ars_mujoco_world"  # the custom numeric that holds the initial world
 
 # status of a run, written by the callback and turned into an error by the loop
 RUNNING, TIME_JUMP, NOT_FINITE, LAW_FAILED, OTHER_LAYOUT, BURST = range(6)
-
-BURST_PRESSURE = 1e8  # Pa; no relief valve lets a real circuit get near 1000 bar
 
 HEADER = np.dtype(
     [
@@ -83,19 +80,6 @@ def check_finite(world, value: float, time: float) -> None:
     """Record that a number which sums up the step is not finite."""
     if not math.isfinite(value):
         stop(world, NOT_FINITE, time)
-
-
-@kernel
-def check_circuits(world, stabilizers, state, time: float) -> None:
-    """Record that a circuit has left all that is physical: its substeps burst, or its vane went far past the stop."""
-    if _is_beyond(stabilizers.front, state.front.circuit) or _is_beyond(stabilizers.rear, state.rear.circuit):
-        stop(world, BURST, time)
-
-
-@kernel
-def _is_beyond(axle, circuit) -> bool:
-    too_far = abs(circuit.angle) > 2.0 * axle.circuit.motor.stop_angle
-    return axle.kind == PUMP_CONTROLLED and (too_far or abs(circuit.pressure) > BURST_PRESSURE)
 
 
 @kernel

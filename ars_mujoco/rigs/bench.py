@@ -10,9 +10,9 @@ from ars_mujoco.channels import Signal
 from ars_mujoco.kernel import NativeCallback, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import stabilizers
-from ars_mujoco.rigs.stabilizers import stabilize_both
+from ars_mujoco.rigs.stabilizers import check_circuits, stabilize_both
 from ars_mujoco.signal import SIGNAL, slope, value
-from ars_mujoco.world import begin, check_circuits, check_finite, layout_version, world_dtype
+from ars_mujoco.world import begin, check_finite, layout_version, world_dtype
 
 NAME = "bench"
 

@@ -15,12 +15,13 @@ from ars_mujoco.rigs.stabilizers import (
     BAR_ADDRESSES,
     apply_bar_torques,
     bar_addresses,
+    check_circuits,
     sense_circuits,
     stabilize_both,
     twist,
 )
 from ars_mujoco.signal import SIGNAL, value
-from ars_mujoco.world import begin, check_circuits, check_finite, layout_version, world_dtype
+from ars_mujoco.world import begin, check_finite, layout_version, world_dtype
 
 NAME = "roll_plane"
 NO_SPEED = 100.0  # m/s; the rig has none, and a controller that fades in with speed must act

@@ -23,6 +23,7 @@ from ars_mujoco.rigs.stabilizers import (
     BAR_ADDRESSES,
     apply_bar_torques,
     bar_addresses,
+    check_circuits,
     sense_circuits,
     stabilize_both,
     twist,
@@ -30,7 +31,7 @@ from ars_mujoco.rigs.stabilizers import (
 from ars_mujoco.road import Bump, height_and_slope
 from ars_mujoco.signal import SIGNAL, slope, value
 from ars_mujoco.tires.tire import Tire, TireOutput, TireState, tire
-from ars_mujoco.world import begin, check_circuits, check_finite, layout_version, world_dtype
+from ars_mujoco.world import begin, check_finite, layout_version, world_dtype
 
 NAME = "sedan"
 CORNERS = ("fl", "fr", "rl", "rr")
@@ -186,13 +187,11 @@ def act(world, mj) -> None:
         speed, slope(p.speed, mj.time), body.speed, body.yaw_rate, body.yaw + body.sideslip,
     )  # fmt: skip
     rates = _angular_velocity(mj, int(at.body))
-    total = 0.0
-    for i in range(4):
-        torque = 0.5 * (front_torque if i < 2 else rear_torque)
-        mj.qfrc_applied[int(at.spin_velocity[i])] = torque
-        if i < 2:
-            mj.ctrl[int(at.steer_control[i])] = steer
-    total += _corner(p, p.front_tire, now, later, out.fl, mj, rates, 0, h)
+    for i in range(2):
+        mj.ctrl[int(at.steer_control[i])] = steer
+        mj.qfrc_applied[int(at.spin_velocity[i])] = 0.5 * front_torque
+        mj.qfrc_applied[int(at.spin_velocity[2 + i])] = 0.5 * rear_torque
+    total = _corner(p, p.front_tire, now, later, out.fl, mj, rates, 0, h)
     total += _corner(p, p.front_tire, now, later, out.fr, mj, rates, 1, h)
     total += _corner(p, p.rear_tire, now, later, out.rl, mj, rates, 2, h)
     total += _corner(p, p.rear_tire, now, later, out.rr, mj, rates, 3, h)

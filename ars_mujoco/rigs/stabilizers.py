@@ -9,6 +9,11 @@ from ars_mujoco.control.control_unit import DELAY_LINE, ControlUnit, delayed, sa
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import record_dtype
 from ars_mujoco.saturation import saturate
+from ars_mujoco.world import BURST, stop
+
+BURST_PRESSURE = 1e8  # Pa; no relief valve lets a real circuit get near 1000 bar
+BARS = ("front_bar_left", "front_bar_right", "rear_bar_left", "rear_bar_right")
+BAR_ADDRESSES = np.dtype([("position", "f8", 4), ("velocity", "f8", 4)])
 
 PARAMETERS = np.dtype(
     [
@@ -73,10 +78,6 @@ def _limited(loop, command):
     return (c0, c1, c2) if first == c0 else (first, 0.0, 0.0)
 
 
-BARS = ("front_bar_left", "front_bar_right", "rear_bar_left", "rear_bar_right")
-BAR_ADDRESSES = np.dtype([("position", "f8", 4), ("velocity", "f8", 4)])
-
-
 def bar_addresses(model: mujoco.MjModel) -> dict:
     """The numbers of BAR_ADDRESSES, by the model's names."""
     joints = [model.joint(name) for name in BARS]
@@ -107,3 +108,16 @@ def sense_circuits(sensors, now) -> None:
     front, rear = now.front.circuit, now.rear.circuit
     sensors.front_angle, sensors.rear_angle = front.angle, rear.angle
     sensors.front_pressure, sensors.rear_pressure = front.pressure, rear.pressure
+
+
+@kernel
+def check_circuits(world, stabilizers, state, time: float) -> None:
+    """Record that a circuit has left all that is physical: its substeps burst, or its vane went far past the stop."""
+    if _is_beyond(stabilizers.front, state.front.circuit) or _is_beyond(stabilizers.rear, state.rear.circuit):
+        stop(world, BURST, time)
+
+
+@kernel
+def _is_beyond(axle, circuit) -> bool:
+    too_far = abs(circuit.angle) > 2.0 * axle.circuit.motor.stop_angle
+    return axle.kind == PUMP_CONTROLLED and (too_far or abs(circuit.pressure) > BURST_PRESSURE)

@@ -3,13 +3,13 @@
 from dataclasses import replace
 
 from ars_mujoco.errors import InputError
+from ars_mujoco.metrics import G
 from ars_mujoco.setup.start import Start
 from ars_mujoco.signal import signal
 from ars_mujoco.simulation import simulate
 
 ENTRY, SETTLED, END = 1.5, 4.5, 5.0  # s: bent into the turn, from where it is read, its end
 TOLERANCE = 0.1  # of the lateral acceleration, within which the steering angle is scaled to what is wanted
-G = 9.80665  # m/s^2, as units count lateral acceleration
 BRISK = 6.0  # m/s^2, of the turn from which the driver learns the car
 
 
