@@ -5,7 +5,7 @@ the record that the compiled kernels read (`record_dtype`), so that no value is 
 """
 
 from functools import partial
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar, get_args
 
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationInfo, model_validator
@@ -32,6 +32,8 @@ class Parameters(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
+    RECORD: ClassVar[np.dtype | None] = None  # of a block whose record is not its fields, but what these attributes are
+
     @model_validator(mode="before")
     @classmethod
     def _note_schema(cls, block: Any, info: ValidationInfo) -> Any:
@@ -41,29 +43,30 @@ class Parameters(BaseModel):
 
 
 def record_dtype(model: type[Parameters]) -> np.dtype:
-    """The numpy record of `model`: a float64 for each float field, nested blocks as nested records, in field order."""
+    """The numpy record of `model`: a float64 for each float field, nested blocks as nested records, in field order.
+
+    Blocks that may be absent have their room too; a block with a RECORD of its own has that.
+    """
+    if model.RECORD:
+        return model.RECORD
+    kept = {name: _kept(field.annotation) for name, field in model.model_fields.items()}
     return np.dtype(
-        [
-            (name, _field_dtype(field.annotation))
-            for name, field in model.model_fields.items()
-            if _kept(field.annotation)
-        ]
+        [(name, np.float64 if each is float else record_dtype(each)) for name, each in kept.items() if each]
     )
 
 
 def fill(record: Any, parameters: Parameters) -> None:
-    """Write `parameters` into a numpy record of `record_dtype(type(parameters))`."""
+    """Write `parameters` into a numpy record of `record_dtype(type(parameters))`; an absent block is all zeros."""
     for name in record.dtype.names:
         value = getattr(parameters, name)
         if isinstance(value, Parameters):
             fill(record[name], value)
         else:
-            record[name] = value
+            record[name] = 0.0 if value is None else value
 
 
-def _kept(annotation: Any) -> bool:
-    return annotation is float or isinstance(annotation, type) and issubclass(annotation, Parameters)
-
-
-def _field_dtype(annotation: Any) -> Any:
-    return np.float64 if annotation is float else record_dtype(annotation)
+def _kept(annotation: Any) -> type | None:
+    """What a record keeps of a field: a float or a block, the latter also where it may be absent; else None."""
+    options = [each for each in get_args(annotation) or [annotation] if each is not type(None)]
+    (only,) = options if len(options) == 1 else (None,)
+    return only if only is float or isinstance(only, type) and issubclass(only, Parameters) else None

@@ -64,7 +64,7 @@ class PumpOutput(Parameters):
     flow: Signal("m^3/s", "flow of the pump without its leakage")
     shaft_power: Signal("W", "power taken from the shaft, negative where it is given back")
     loss_power: Signal("W", "lost to the pump's torque loss")
-    leakage_power: Signal("W", "lost to leakage in the pump")
+    leakage_power: Signal("W", "lost to leakage in the pump, its flow loss")
 
 
 class ReliefOutput(Parameters):
@@ -144,15 +144,15 @@ def _report(axle, now, out, twist):
     circuit = axle.circuit
     state = now.circuit
     _, powers = rates(circuit, axle.stiffness, read(state), 0.0, twist)
-    shaft, loss, squared_pressure, relief, friction, _, motor, _ = powers
+    shaft, loss, pump_leakage, motor_leakage, relief, friction, _, motor, _ = powers
     out.bar.angle = state.angle
     out.motor.pressure, out.motor.rate = state.pressure, state.rate
     out.motor.output_power, out.motor.friction_power = motor, friction
-    out.motor.leakage_power = circuit.motor.leakage * squared_pressure
+    out.motor.leakage_power = motor_leakage
     out.pump.stroke = state.stroke
     out.pump.flow = circuit.pump.displacement * circuit.pump.speed * min(max(state.stroke, -1.0), 1.0)
     out.pump.shaft_power, out.pump.loss_power = shaft, loss
-    out.pump.leakage_power = circuit.pump.leakage * squared_pressure
+    out.pump.leakage_power = pump_leakage
     out.relief.power = relief
     energy = now.energy
     out.energy.shaft, out.energy.recovered = energy.shaft, energy.recovered

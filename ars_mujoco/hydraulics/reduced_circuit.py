@@ -15,7 +15,7 @@ Constants divide before they multiply (1 / inertia * torque), so that a division
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.swash_plate_loop import SwashPlateLoop, valve_command
 from ars_mujoco.hydraulics.line import Line, capacitance, capacitance_slope
-from ars_mujoco.hydraulics.pump import Pump, ideal_flow, torque_loss
+from ars_mujoco.hydraulics.pump import Pump, flow_loss, ideal_flow, torque_loss
 from ars_mujoco.hydraulics.relief_valve import ReliefValve, relief_flow
 from ars_mujoco.hydraulics.servo_valve import ServoValve, spool_acceleration
 from ars_mujoco.hydraulics.swash_plate import SwashPlate, stroke_rate
@@ -24,7 +24,7 @@ from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, Quantity
 from ars_mujoco.saturation import saturate
 
-NOTHING = (0.0,) * 10
+NOTHING = (0.0,) * 11
 
 
 class ReducedCircuit(Parameters):
@@ -57,7 +57,7 @@ class CircuitEnergy(Parameters):
     shaft: Signal("J", "work of the pump shaft, less what came back")
     recovered: Signal("J", "work given back to the shaft, as a positive number")
     pump_torque_loss: Signal("J", "lost to the pump's torque loss")
-    pump_leakage: Signal("J", "lost to leakage in the pump")
+    pump_leakage: Signal("J", "lost to leakage in the pump, its flow loss")
     motor_leakage: Signal("J", "lost to leakage in the motor")
     relief: Signal("J", "lost over the relief valve")
     friction: Signal("J", "lost to friction in the motor")
@@ -72,8 +72,8 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     """Derivatives of the six states and the powers behind the energies, as two tuples.
 
     The states are (spool, spool_rate, stroke, pressure, angle, rate); the equations are those of the verification set
-    (paper eqs. 18 to 20, 24 to 29). The powers are (W) shaft, pump torque loss, squared pressure (Pa^2, for the
-    leakages), relief, friction, capacitance, motor, and the bar torque (Nm).
+    (paper eqs. 18 to 20, 24 to 29). The powers are (W) shaft, pump torque loss, pump leakage, motor leakage, relief,
+    friction, capacitance, motor, and the bar torque (Nm).
     """
     spool, spool_rate, stroke, pressure, angle, rate = state
     pump, motor = circuit.pump, circuit.motor
@@ -82,12 +82,13 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     relief = relief_flow(circuit.relief_valve, pressure)
     friction = friction_torque(motor, rate)
     bar_torque = bar_stiffness * (angle - twist)
-    displaced, leakage = motor.displacement * rate, (pump.leakage + motor.leakage) * pressure
+    pump_leakage, motor_leakage = flow_loss(pump, stroke, pressure), motor.leakage * pressure
     derivatives = (
         spool_rate,
         spool_acceleration(circuit.servo_valve, spool, spool_rate, command),
         stroke_rate(circuit.swash_plate, spool),
-        (flow - leakage - relief - displaced) / capacitance(circuit.line, motor, angle),
+        (flow - (pump_leakage + motor_leakage) - relief - motor.displacement * rate)
+        / capacitance(circuit.line, motor, angle),
         rate,
         1.0 / motor.inertia * (motor.displacement * pressure - bar_torque - stop_torque(motor, angle) - friction),
     )
@@ -95,7 +96,8 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     powers = (
         flow * pressure + loss,
         loss,
-        pressure * pressure,
+        pump_leakage * pressure,
+        motor_leakage * pressure,
         relief * pressure,
         friction * rate,
         -0.5 * capacitance_slope(circuit.line, motor, angle) * rate * pressure * pressure,
@@ -212,7 +214,7 @@ def _runge_kutta(state, k1, k2, k3, k4, h):
 @kernel
 def _accumulate(sums, p1, p2, p3, p4):
     # the powers of `rates` with the weights of the states, then recovered power and throughput, which need |.|
-    shaft, motor = _mean(p1[0], p2[0], p3[0], p4[0]), _mean(p1[6], p2[6], p3[6], p4[6])
+    shaft, motor = _mean(p1[0], p2[0], p3[0], p4[0]), _mean(p1[7], p2[7], p3[7], p4[7])
     return (
         sums[0] + shaft,
         sums[1] + _mean(p1[1], p2[1], p3[1], p4[1]),
@@ -220,10 +222,11 @@ def _accumulate(sums, p1, p2, p3, p4):
         sums[3] + _mean(p1[3], p2[3], p3[3], p4[3]),
         sums[4] + _mean(p1[4], p2[4], p3[4], p4[4]),
         sums[5] + _mean(p1[5], p2[5], p3[5], p4[5]),
-        sums[6] + motor,
-        sums[7] + _mean(p1[7], p2[7], p3[7], p4[7]),
-        sums[8] + max(-shaft, 0.0),
-        sums[9] + abs(shaft) + abs(motor),
+        sums[6] + _mean(p1[6], p2[6], p3[6], p4[6]),
+        sums[7] + motor,
+        sums[8] + _mean(p1[8], p2[8], p3[8], p4[8]),
+        sums[9] + max(-shaft, 0.0),
+        sums[10] + abs(shaft) + abs(motor),
     )
 
 
@@ -237,12 +240,12 @@ def _write(circuit, state, sums, later, energy_now, energy_later, step, count):
     # the new state and energies into their records; returns the mean bar torque
     later.spool, later.spool_rate, later.stroke, later.pressure, later.angle, later.rate = state
     h = step / count
-    shaft, loss, squared_pressure, relief, friction, compliance, motor, torque, recovered, throughput = sums
+    shaft, loss, pump_leakage, motor_leakage, relief, friction, compliance, motor, torque, recovered, throughput = sums
     energy_later.shaft = energy_now.shaft + h * shaft
     energy_later.recovered = energy_now.recovered + h * recovered
     energy_later.pump_torque_loss = energy_now.pump_torque_loss + h * loss
-    energy_later.pump_leakage = energy_now.pump_leakage + h * circuit.pump.leakage * squared_pressure
-    energy_later.motor_leakage = energy_now.motor_leakage + h * circuit.motor.leakage * squared_pressure
+    energy_later.pump_leakage = energy_now.pump_leakage + h * pump_leakage
+    energy_later.motor_leakage = energy_now.motor_leakage + h * motor_leakage
     energy_later.relief = energy_now.relief + h * relief
     energy_later.friction = energy_now.friction + h * friction
     energy_later.capacitance = energy_now.capacitance + h * compliance
