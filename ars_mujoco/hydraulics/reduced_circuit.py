@@ -14,7 +14,10 @@ Constants divide before they multiply (1 / inertia * torque), so that a division
 
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.swash_plate_loop import SwashPlateLoop, valve_command
+from ars_mujoco.hydraulics.control_cylinder import ControlCylinder
 from ars_mujoco.hydraulics.line import Line, capacitance, capacitance_slope
+from ars_mujoco.hydraulics.metering_edge import MeteringEdge
+from ars_mujoco.hydraulics.oil import Oil
 from ars_mujoco.hydraulics.pump import Pump, flow_loss, ideal_flow, torque_loss
 from ars_mujoco.hydraulics.relief_valve import ReliefValve, relief_flow
 from ars_mujoco.hydraulics.servo_valve import ServoValve, spool_acceleration
@@ -27,16 +30,24 @@ from ars_mujoco.saturation import saturate
 NOTHING = (0.0,) * 11
 
 
-class ReducedCircuit(Parameters):
-    """Components of one axle's circuit."""
+class Circuit(Parameters):
+    """Components that one axle's circuit has at every stage of simplification."""
 
     servo_valve: ServoValve
     swash_plate: SwashPlate
     swash_plate_loop: SwashPlateLoop
     pump: Pump
-    line: Line
     relief_valve: ReliefValve
     motor: VaneMotor
+    oil: Oil | None = None  # these three where pump control is more than third order
+    metering_edge: MeteringEdge | None = None
+    control_cylinder: ControlCylinder | None = None
+
+
+class ReducedCircuit(Circuit):
+    """Components of one axle's reduced circuit."""
+
+    line: Line
     charge_power: Quantity("W", ge=0)  # constant drawn by charge and control supply, all of it throttled to heat
 
 
@@ -62,7 +73,12 @@ class CircuitEnergy(Parameters):
     relief: Signal("J", "lost over the relief valve")
     friction: Signal("J", "lost to friction in the motor")
     capacitance: Signal("J", "taken by the oil's capacitance as it varies with the angle")
-    charge: Signal("J", "drawn by charge and control supply, all of it lost")
+    line: Signal("J", "lost to the flow through the lines and the fail-safe valve")
+    check: Signal("J", "lost over the check valves")
+    bypass: Signal("J", "lost over the bypass valve")
+    tank_leakage: Signal("J", "lost to leakage to the tank")
+    charge: Signal("J", "drawn by charge and control supply")
+    charge_loss: Signal("J", "of that, what never reaches the circuit")
     motor: Signal("J", "work of the motor on the bar")
     throughput: Signal("J", "integral of |shaft| + |motor| power")
 
@@ -76,17 +92,28 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     friction, capacitance, motor, and the bar torque (Nm).
     """
     spool, spool_rate, stroke, pressure, angle, rate = state
-    pump, motor = circuit.pump, circuit.motor
     command = valve_command(circuit.swash_plate_loop, circuit.swash_plate, stroke_command, stroke)
+    plant, powers = plant_rates(circuit, bar_stiffness, stroke, pressure, angle, rate, twist)
+    control = (
+        spool_rate,
+        spool_acceleration(circuit.servo_valve, spool, spool_rate, command),
+        stroke_rate(circuit.swash_plate, spool),
+    )
+    return control + plant, powers
+
+
+@kernel
+def plant_rates(
+    circuit, bar_stiffness: float, stroke: float, pressure: float, angle: float, rate: float, twist: float
+):
+    """Derivatives of (pressure, angle, rate) at a pump stroke, and the powers of `rates` (eqs. 24 to 29)."""
+    pump, motor = circuit.pump, circuit.motor
     flow = ideal_flow(pump, stroke)
     relief = relief_flow(circuit.relief_valve, pressure)
     friction = friction_torque(motor, rate)
     bar_torque = bar_stiffness * (angle - twist)
     pump_leakage, motor_leakage = flow_loss(pump, stroke, pressure), motor.leakage * pressure
     derivatives = (
-        spool_rate,
-        spool_acceleration(circuit.servo_valve, spool, spool_rate, command),
-        stroke_rate(circuit.swash_plate, spool),
         (flow - (pump_leakage + motor_leakage) - relief - motor.displacement * rate)
         / capacitance(circuit.line, motor, angle),
         rate,
@@ -250,6 +277,7 @@ def _write(circuit, state, sums, later, energy_now, energy_later, step, count):
     energy_later.friction = energy_now.friction + h * friction
     energy_later.capacitance = energy_now.capacitance + h * compliance
     energy_later.charge = energy_now.charge + step * circuit.charge_power
+    energy_later.charge_loss = energy_now.charge_loss + step * circuit.charge_power
     energy_later.motor = energy_now.motor + h * motor
     energy_later.throughput = energy_now.throughput + h * throughput
     return torque / count
