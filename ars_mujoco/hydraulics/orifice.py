@@ -1,0 +1,15 @@
+"""Orifice: the flow through a sharp edge goes with the square root of the pressure difference (paper eq. 2)."""
+
+import math
+
+from ars_mujoco.kernel import kernel
+
+
+@kernel
+def rounded_root(difference: float, rounding: float) -> float:
+    """Square root (Pa^0.5) of a pressure difference (Pa), with its sign, rounded below `rounding` (Pa, gt 0).
+
+    Through a small enough difference any orifice flows laminar, in proportion to it; so the slope is finite at zero,
+    where that of the root is not and no step of an integrator would be short enough.
+    """
+    return difference / math.sqrt(math.sqrt(difference * difference + rounding * rounding))
