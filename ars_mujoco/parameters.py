@@ -8,8 +8,9 @@ from functools import partial
 from typing import Annotated, Any, ClassVar, get_args
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationInfo, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, PlainSerializer, ValidationInfo, model_validator
 
+from ars_mujoco.suggestion import did_you_mean
 from ars_mujoco.units import Unit, to_si
 
 
@@ -21,6 +22,17 @@ def Quantity(unit: str, **limits: float):  # noqa: N802 (reads as a type)
 def Number(**limits: float):  # noqa: N802
     """The type of a dimensionless field: a bare number in the file, or a percentage."""
     return Quantity("1", **limits)
+
+
+def Choice(*names: str):  # noqa: N802
+    """The type of a field that is one of `names` in the file, and the place of that name, a float, in the record."""
+
+    def place(value: object) -> float:
+        if value not in names:
+            raise ValueError(f"unknown{did_you_mean(str(value), names)}; allowed: {', '.join(names)}")
+        return float(names.index(value))
+
+    return Annotated[float, BeforeValidator(place), PlainSerializer(lambda value: names[int(value)], when_used="json")]
 
 
 class Parameters(BaseModel):

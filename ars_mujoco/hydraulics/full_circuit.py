@@ -47,8 +47,8 @@ def full_rates(circuit, detail, bar_stiffness, x, dx, power, stroke, twist, bypa
     """
     lumps = int(detail.pipe.lumps)
     tank, gallery = circuit.metering_edge.return_pressure, x[GALLERY]
-    dx[BYPASS] = opening_rate(detail.bypass_valve.time, x[BYPASS], bypass_command)
-    dx[FAIL_SAFE] = opening_rate(detail.fail_safe_valve.time, x[FAIL_SAFE], fail_safe_command)
+    dx[BYPASS] = opening_rate(detail.bypass_valve, x[BYPASS], bypass_command)
+    dx[FAIL_SAFE] = opening_rate(detail.fail_safe_valve, x[FAIL_SAFE], fail_safe_command)
     power[LINE] = 0.0
     _accelerate(detail, x, dx, power, lumps, A, FLOW_A)
     _accelerate(detail, x, dx, power, lumps, B, FLOW_B)

@@ -115,7 +115,7 @@ def plant_rates(
     pump_leakage, motor_leakage = flow_loss(pump, stroke, pressure), motor.leakage * pressure
     derivatives = (
         (flow - (pump_leakage + motor_leakage) - relief - motor.displacement * rate)
-        / capacitance(circuit.line, motor, angle),
+        / capacitance(circuit.line, motor, angle, pressure),
         rate,
         1.0 / motor.inertia * (motor.displacement * pressure - bar_torque - stop_torque(motor, angle) - friction),
     )
@@ -127,7 +127,7 @@ def plant_rates(
         motor_leakage * pressure,
         relief * pressure,
         friction * rate,
-        -0.5 * capacitance_slope(circuit.line, motor, angle) * rate * pressure * pressure,
+        -0.5 * capacitance_slope(circuit.line, motor, angle, pressure) * rate * pressure * pressure,
         bar_torque * rate,
         bar_torque,
     )
@@ -199,7 +199,7 @@ def stored_energy(circuit, bar_stiffness: float, state, twist: float):
     """Energy (J) now stored in (oil, bar torsion, motor inertia, mechanical stop)."""
     beyond = max(abs(state.angle) - circuit.motor.stop_angle, 0.0)
     return (
-        0.5 * capacitance(circuit.line, circuit.motor, state.angle) * state.pressure**2,
+        0.5 * capacitance(circuit.line, circuit.motor, state.angle, state.pressure) * state.pressure**2,
         0.5 * bar_stiffness * (state.angle - twist) ** 2,
         0.5 * circuit.motor.inertia * state.rate**2,
         0.5 * circuit.motor.stop_stiffness * beyond**2,
