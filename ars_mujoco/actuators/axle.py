@@ -135,7 +135,9 @@ class AxleOutput(Parameters):
 
 
 @kernel
-def stabilize(p, now, later, front_out, rear_out, front_twist, rear_twist, front_demand, rear_demand, valves, step, work):
+def stabilize(
+    p, now, later, front_out, rear_out, front_twist, rear_twist, front_demand, rear_demand, valves, step, work
+):
     """Advance both axles by `step` s and return their bar torques (front, rear) in Nm over that step.
 
     `p`, `now`, `later` are records with a `front` and a `rear` of Axle and AxleState, the outs are AxleOutput records.

@@ -1,7 +1,7 @@
 """Control cylinder: the piston that turns the swash plate, and the forces on it (paper eqs. 1 to 8).
 
-Positive travel is that of positive pump stroke. With eq. 1 chamber A grows with it, so that eqs. 5 and 6 hold with their
-signs exchanged; and the series capacitance of eq. 8 falls with x^2, where the paper prints a plus.
+Positive travel is that of positive pump stroke. With eq. 1 chamber A grows with it, so that eqs. 5 and 6 hold with
+their signs exchanged; and the series capacitance of eq. 8 falls with x^2, where the paper prints a plus.
 """
 
 import math

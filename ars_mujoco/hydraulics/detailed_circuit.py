@@ -37,10 +37,11 @@ from ars_mujoco.hydraulics.full_circuit import (
     A,
     B,
     full_rates,
+    rest,
 )
 from ars_mujoco.hydraulics.oil import Fluid
 from ars_mujoco.hydraulics.pipe import Pipe
-from ars_mujoco.hydraulics.pump_control import advance_pump_control, control_power, stroke_speed
+from ars_mujoco.hydraulics.pump_control import FULL, advance_pump_control, control_power, stroke_speed
 from ars_mujoco.hydraulics.reduced_circuit import plant_rates
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Number, Parameters, Quantity
@@ -80,6 +81,20 @@ WORK = np.dtype(
         ("sums", "f8", POWERS),
     ]
 )
+
+
+def start_detailed(axle, state) -> None:
+    """Fill the axle state `state` with the circuit at rest and charged, the cylinder's chambers halfway to supply."""
+    if axle.detail.stage == FULL:
+        edge = axle.circuit.metering_edge
+        state.detail.p_a = state.detail.p_b = 0.5 * (edge.supply_pressure + edge.return_pressure)
+    start_plant(axle, state.detail.plant)
+
+
+def start_plant(axle, x: np.ndarray) -> None:
+    """Fill the STATES `x` with those at rest; the reduced plant's are all zero."""
+    if axle.detail.plant == FULL_PLANT:
+        rest(axle.circuit, axle.detail, x)
 
 
 @kernel

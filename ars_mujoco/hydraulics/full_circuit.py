@@ -12,17 +12,22 @@ to zero: a line that is drawn empty cavitates. A line is N lumps of inertance be
 
 import numpy as np
 
-from ars_mujoco.hydraulics.bypass_valve import bypass_flow
-from ars_mujoco.hydraulics.charge_pump import charge_flow, charge_power, charge_relief_flow
-from ars_mujoco.hydraulics.check_valve import check_flow
-from ars_mujoco.hydraulics.fail_safe_valve import fail_safe_drop, is_shut
-from ars_mujoco.hydraulics.oil import compressibility, energy_density
-from ars_mujoco.hydraulics.pipe import MOST_LUMPS, inertance, pressure_drop, volume
+from ars_mujoco.hydraulics.bypass_valve import BypassValve, bypass_flow
+from ars_mujoco.hydraulics.charge_pump import ChargePump, charge_flow, charge_power, charge_relief_flow
+from ars_mujoco.hydraulics.check_valve import CheckValve, check_flow
+from ars_mujoco.hydraulics.fail_safe_valve import FailSafeValve, fail_safe_drop, is_shut
+from ars_mujoco.hydraulics.metering_edge import MeteringEdge
+from ars_mujoco.hydraulics.oil import Oil, compressibility, energy_density
+from ars_mujoco.hydraulics.pipe import MOST_LUMPS, Pipe, inertance, pressure_drop, volume
 from ars_mujoco.hydraulics.pump import flow_loss, ideal_flow, torque_loss
+from ars_mujoco.hydraulics.reduced_circuit import Circuit
 from ars_mujoco.hydraulics.relief_valve import one_way_relief
 from ars_mujoco.hydraulics.valve_opening import opening_rate
 from ars_mujoco.hydraulics.vane_motor import friction_torque, stop_torque
 from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import Quantity
+
+SHUT_TIME = 6e-5  # s, in which a shut fail-safe valve stops what still flows
 
 # where the states lie: node pressures and flows of both sides, then the rest
 A, B = 0, MOST_LUMPS + 1
@@ -36,7 +41,18 @@ SHAFT, TORQUE_LOSS, PUMP_LEAKAGE, MOTOR_LEAKAGE, RELIEF, FRICTION, CAPACITANCE, 
 LINE, CHECK, BYPASS_LOSS, TANK_LEAKAGE, CHARGE, CHARGE_LOSS = range(9, 15)
 POWERS = 15
 
-SHUT_TIME = 6e-5  # s, in which a shut fail-safe valve stops what still flows
+
+class FullCircuit(Circuit):
+    """Components of one axle's full circuit; pressures are absolute."""
+
+    oil: Oil
+    metering_edge: MeteringEdge  # gives the control supply and the tank, also where pump control is of third order
+    pipe: Pipe
+    charge_pump: ChargePump
+    check_valve: CheckValve
+    bypass_valve: BypassValve
+    fail_safe_valve: FailSafeValve
+    tank_leakage: Quantity("m^3/s/Pa", ge=0)  # of one side to the tank
 
 
 @kernel

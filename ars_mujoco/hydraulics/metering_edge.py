@@ -45,7 +45,7 @@ def edge_flow_b(edge, spool: float, pressure: float):
 
 @kernel
 def common_flow(edge, spool: float, load: float):
-    """Flow (m^3/s) through both edges at a load pressure p_A - p_B, and its slopes: eq. 11 with the sign(y) it lacks."""
+    """Flow (m^3/s) through both edges at a load p_A - p_B (Pa), and its slopes: eq. 11 with the sign(y) it lacks."""
     opening = edge.constant * edge.stroke * spool
     side = 1.0 if spool >= 0.0 else -1.0
     difference = 0.5 * (edge.supply_pressure - edge.return_pressure - side * load)

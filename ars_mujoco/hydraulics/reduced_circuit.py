@@ -103,9 +103,7 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
 
 
 @kernel
-def plant_rates(
-    circuit, bar_stiffness: float, stroke: float, pressure: float, angle: float, rate: float, twist: float
-):
+def plant_rates(circuit, bar_stiffness: float, stroke: float, pressure: float, angle: float, rate: float, twist: float):
     """Derivatives of (pressure, angle, rate) at a pump stroke, and the powers of `rates` (eqs. 24 to 29)."""
     pump, motor = circuit.pump, circuit.motor
     flow = ideal_flow(pump, stroke)
