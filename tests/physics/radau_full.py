@@ -120,14 +120,13 @@ class Opening:
                 return o0 + (o1 - o0) * (t - t0) / (t1 - t0)
         return knots[-1][1]
 
-    def corners(self, level: float) -> list[float]:
-        """The times at the knots and where the opening passes the level."""
-        passes = [
+    def passes(self, level: float) -> list[float]:
+        """The times at which the opening passes the level inside a line."""
+        return [
             t0 + (level - o0) / (o1 - o0) * (t1 - t0)
             for (t0, o0), (t1, o1) in zip(self.knots, self.knots[1:], strict=False)
             if min(o0, o1) < level < max(o0, o1)
         ]
-        return [t for t, _ in self.knots] + passes
 
 
 SHUT = Opening(((0.0, 0.0),))
@@ -459,6 +458,7 @@ class Solution:
     """A converged run; `time` (m,) s are the solver's own steps."""
 
     plant: Plant
+    rtol: float
     time: np.ndarray
     _dense: OdeSolution
 
@@ -518,7 +518,7 @@ def solve(
     plant = Plant(parameters, stage, circuit, bypass, fail_safe)
     atol = rtol * np.array(list(plant.sizes.values()))
     state = np.array(list(rest_state(parameters, stage, circuit).values()))
-    corners = bypass.corners(0.0) + fail_safe.corners(parameters.shut)
+    corners = [t for t, _ in bypass.knots + fail_safe.knots] + fail_safe.passes(parameters.shut)
     times, polynomials = [np.zeros(1)], []
     for first, last, angle in command.segments():
         cuts = sorted({first, last, *(t for t in corners if first < t < last)})
@@ -539,4 +539,4 @@ def solve(
             polynomials += run.sol.interpolants
             state = run.y[:, -1]
     time = np.concatenate(times)
-    return Solution(plant, time, OdeSolution(time, polynomials))
+    return Solution(plant, rtol, time, OdeSolution(time, polynomials))
