@@ -22,7 +22,7 @@ def substeps(circuit, bar_stiffness: float, step: float) -> int:
     states = np.zeros((4, 6))
     states[1, 5] = 1.0  # rad/s
     states[2, 3] = 1.1 * circuit.relief_valve.pressure
-    states[3, 3:5] = -1e5, 1.01 * motor.stop_angle  # the pressure on the side whose chamber is the smaller one
+    states[3, 4] = 1.01 * motor.stop_angle
     eigenvalues = np.concatenate([np.linalg.eigvals(_slopes(circuit, bar_stiffness, state)) for state in states])
     decaying = eigenvalues[eigenvalues.real <= 0.0] * step
     for count in range(FEWEST, MOST + 1):
