@@ -8,6 +8,7 @@ from components import OIL, oil, record_of
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
 
 from ars_mujoco.errors import InputError
 from ars_mujoco.files import Document
@@ -26,12 +27,21 @@ def test_at_the_stated_temperatures_it_has_the_stated_viscosities(temperature, v
     assert fluid(oil(temperature=temperature)).viscosity == pytest.approx(viscosity, rel=1e-9)
 
 
+def dynamic_viscosity(celsius, at_40, at_100):
+    """Dynamic viscosity (mPa s) of an oil with two kinematic ones (mm^2/s)."""
+    warm = fluid(oil(viscosity_40=f"{at_40} mm^2/s", viscosity_100=f"{at_100} mm^2/s", temperature=f"{celsius} degC"))
+    return 1e3 * warm.viscosity * warm.density
+
+
 @pytest.mark.parametrize(
-    ("at_40", "at_100", "at_0"), [(32, 5.4, 338), (46, 6.7, 580), (68, 8.6, 1040), (100, 11.1, 1790)]
+    ("at_30", "at_60", "at_100"),
+    [(153, 34.0, 9.1), (250, 50.5, 12.6), (122, 26.3, 7.3), (171, 31.0, 7.5), (165, 30.0, 6.8), (310, 44.2, 9.4)],
 )
-def test_at_freezing_it_is_as_thick_as_data_sheets_of_mineral_oils_of_iso_vg_32_to_100_say(at_40, at_100, at_0):
-    sheet = oil(viscosity_40=f"{at_40} mm^2/s", viscosity_100=f"{at_100} mm^2/s", temperature="0 degC")
-    assert 1e6 * fluid(sheet).viscosity == pytest.approx(at_0, rel=0.03)
+def test_between_two_temperatures_it_is_as_thick_as_published_heavy_machine_oils(at_30, at_60, at_100):
+    """In mPa s at 30, 60 and 100 degC: Stachowiak and Batchelor, Engineering Tribology, Table 2.3."""
+    kinematic_100 = at_100 / (1e-3 * fluid(oil(temperature="100 degC")).density)
+    kinematic_40 = brentq(lambda nu: dynamic_viscosity(30, nu, kinematic_100) - at_30, 1.1 * kinematic_100, 1e3)
+    assert dynamic_viscosity(60, kinematic_40, kinematic_100) == pytest.approx(at_60, rel=0.06)
 
 
 @given(st.floats(-40.0, 149.0))
