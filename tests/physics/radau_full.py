@@ -25,7 +25,7 @@ import numpy as np
 from radau import BAR, STEP_1_DEG, Command, VerificationSet
 from scipy.integrate import OdeSolution, solve_ivp
 
-RTOL = 1e-9
+RTOL = 1e-8
 
 
 @dataclass(frozen=True)
