@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ars_mujoco.actuators.axle import NO_BAR, PUMP_CONTROLLED, TORSION_BAR
+from ars_mujoco.actuators.drive import Constant, Drive
 from ars_mujoco.hydraulics.reduced_circuit import ReducedCircuit
 from ars_mujoco.hydraulics.substeps import substeps
 from ars_mujoco.parameters import Parameters, fill
@@ -33,6 +34,7 @@ class PumpControlled(Parameters):
 
     kind: Literal["pump_controlled"]
     circuit: Literal["reduced"] = "reduced"
+    drive: Drive = Constant(kind="constant")
     front: ReducedCircuit
     rear: ReducedCircuit
 

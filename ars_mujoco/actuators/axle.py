@@ -60,6 +60,7 @@ class MotorOutput(Parameters):
 
 
 class PumpOutput(Parameters):
+    speed: Signal("rad/s", "speed of the shaft")
     stroke: Signal("1", "stroke of the swash plate, fraction of full")
     flow: Signal("m^3/s", "flow of the pump without its leakage")
     shaft_power: Signal("W", "power taken from the shaft, negative where it is given back")
@@ -149,7 +150,7 @@ def _report(axle, now, out, twist):
     out.motor.pressure, out.motor.rate = state.pressure, state.rate
     out.motor.output_power, out.motor.friction_power = motor, friction
     out.motor.leakage_power = circuit.motor.leakage * squared_pressure
-    out.pump.stroke = state.stroke
+    out.pump.speed, out.pump.stroke = circuit.pump.speed, state.stroke
     out.pump.flow = circuit.pump.displacement * circuit.pump.speed * min(max(state.stroke, -1.0), 1.0)
     out.pump.shaft_power, out.pump.loss_power = shaft, loss
     out.pump.leakage_power = circuit.pump.leakage * squared_pressure

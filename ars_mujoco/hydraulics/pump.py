@@ -9,7 +9,7 @@ class Pump(Parameters):
     """Swash-plate axial piston pump, driven at a given shaft speed."""
 
     displacement: Quantity("m^3/rad", gt=0)  # V_p/2pi at full stroke
-    speed: Quantity("rad/s", gt=0)  # shaft speed
+    speed: Quantity("rad/s", gt=0)  # shaft speed where the drive is constant
     leakage: Quantity("m^3/s/Pa", ge=0)  # the pump's share of k_Li
     loss_torque: Quantity("Nm", ge=0)  # normal value of the torque loss polynomial
     loss_constant: Number(ge=0)  # its coefficients: constant,

@@ -7,6 +7,7 @@ import numpy as np
 from ars_mujoco.actuators.axle import AxleOutput
 from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
+from ars_mujoco.hydraulics.drive import DriveOutput
 from ars_mujoco.kernel import NativeCallback, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import stabilizers
@@ -15,6 +16,7 @@ from ars_mujoco.signal import SIGNAL, slope, value
 from ars_mujoco.world import begin, check_finite, layout_version, world_dtype
 
 NAME = "bench"
+NO_SPEED = 0.0  # m/s; the bench has no road
 
 
 class Ends(Parameters):
@@ -26,6 +28,7 @@ class Output(Parameters):
 
     ends: Ends
     front: AxleOutput
+    drive: DriveOutput
 
 
 PARAMETERS = np.dtype(
@@ -57,8 +60,9 @@ def step(world, mj) -> None:
     twist_rate = rate / (p.arm * math.sqrt(1.0 - (travel / p.arm) ** 2))
     twist = (one_arm_twist(travel, p.arm), twist_rate, one_arm_twist(value(p.ends, mj.time + 0.5 * h), p.arm))
     front, _ = stabilize_both(
-        p.stabilizers, world.now.stabilizers, world.later.stabilizers, world.out.front, world.scratch.rear,
-        mj.time, h, parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0, 0.0),
+        p.stabilizers, world.now.stabilizers, world.later.stabilizers,
+        world.out.drive, world.out.front, world.scratch.rear, mj.time, h, NO_SPEED,
+        parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0, 0.0),
     )  # fmt: skip
     check_circuits(world, p.stabilizers, world.later.stabilizers, mj.time)
     check_finite(world, front, mj.time)

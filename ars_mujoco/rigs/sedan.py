@@ -15,6 +15,7 @@ from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.driver import Driver, DriverOutput, DriverState, drive, preview
+from ars_mujoco.hydraulics.drive import DriveOutput
 from ars_mujoco.kernel import NativeCallback, entry, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import reference, stabilizers
@@ -74,6 +75,7 @@ class Output(Parameters):
     rr: CornerOutput
     front: AxleOutput
     rear: AxleOutput
+    drive: DriveOutput
 
 
 # where things are in the model: numbers of bodies, degrees of freedom, joints, sites and controls
@@ -198,7 +200,7 @@ def act(world, mj) -> None:
 
     command = later.reference
     front, rear = stabilize_both(
-        p.stabilizers, now.stabilizers, later.stabilizers, out.front, out.rear, mj.time, h,
+        p.stabilizers, now.stabilizers, later.stabilizers, out.drive, out.front, out.rear, mj.time, h, body.speed,
         (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
     )  # fmt: skip
     apply_bar_torques(at.bars, mj, front, rear)
