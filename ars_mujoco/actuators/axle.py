@@ -90,6 +90,7 @@ class MotorOutput(Parameters):
 
 
 class PumpOutput(Parameters):
+    speed: Signal("rad/s", "speed of the shaft")
     stroke: Signal("1", "stroke of the swash plate, fraction of full")
     control_pressure: Signal("Pa", "pressure difference across the control cylinder (where pump control has one)")
     pressure_a: Signal("Pa", "absolute pressure at the pump's port to side A (full circuit)")
@@ -199,7 +200,7 @@ def _report_circuit(circuit, now, out):
     state, energy = now.circuit, now.energy
     out.bar.angle = state.angle
     out.motor.pressure, out.motor.rate = state.pressure, state.rate
-    out.pump.stroke = state.stroke
+    out.pump.speed, out.pump.stroke = circuit.pump.speed, state.stroke
     out.pump.flow = circuit.pump.displacement * circuit.pump.speed * min(max(state.stroke, -1.0), 1.0)
     out.energy.shaft, out.energy.recovered = energy.shaft, energy.recovered
     out.energy.pump_torque_loss, out.energy.pump_leakage = energy.pump_torque_loss, energy.pump_leakage

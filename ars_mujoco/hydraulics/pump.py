@@ -10,7 +10,7 @@ class Pump(Parameters):
     """Swash-plate axial piston pump, driven at a given shaft speed."""
 
     displacement: Quantity("m^3/rad", gt=0)  # V_p/2pi at full stroke
-    speed: Quantity("rad/s", gt=0)  # shaft speed
+    speed: Quantity("rad/s", gt=0)  # shaft speed where the drive is constant
     leakage: Quantity("m^3/s/Pa", ge=0)  # the pump's share of k_Li
     flow_loss: FlowLoss | None = None  # besides the leakage
     torque_loss: TorqueLoss

@@ -9,6 +9,7 @@ from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
 from ars_mujoco.excitation.excitation import EXCITATION, value
 from ars_mujoco.hydraulics.detailed_circuit import WORK
+from ars_mujoco.hydraulics.drive import DriveOutput
 from ars_mujoco.kernel import NativeCallback, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import stabilizers
@@ -16,6 +17,7 @@ from ars_mujoco.rigs.stabilizers import check_circuits, stabilize_both
 from ars_mujoco.world import begin, check_finite, layout_version, world_dtype
 
 NAME = "bench"
+NO_SPEED = 0.0  # m/s; the bench has no road
 
 
 class Ends(Parameters):
@@ -27,6 +29,7 @@ class Output(Parameters):
 
     ends: Ends
     front: AxleOutput
+    drive: DriveOutput
 
 
 PARAMETERS = np.dtype(
@@ -55,13 +58,13 @@ def step(world, mj) -> None:
     world.out.ends.travel = travel
     mj.mocap_pos[2], mj.mocap_pos[5] = p.ends_height + 0.5 * travel, p.ends_height - 0.5 * travel
     # The ends' motion is given. Held at the mean of a step's two ends, the twist gives the mean torque that does the
-    # work by which the bar's energy changes, even where the ends jump; so the rate of a step is what it turns the bar by.
+    # work by which the bar's energy changes, even where the ends jump; so a step's rate is what it turns the bar by.
     angle, next_angle = one_arm_twist(travel, p.arm), one_arm_twist(next_travel, p.arm)
     twist = (angle, world.now.stabilizers.front.twist_rate, 0.5 * (angle + next_angle))
     front, _ = stabilize_both(
-        p.stabilizers, world.now.stabilizers, world.later.stabilizers, world.out.front, world.scratch.rear,
-        mj.time, h, parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0, 0.0),
-        world.scratch.work,
+        p.stabilizers, world.now.stabilizers, world.later.stabilizers,
+        world.out.drive, world.out.front, world.scratch.rear, mj.time, h, NO_SPEED,
+        parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0, 0.0), world.scratch.work,
     )  # fmt: skip
     world.later.stabilizers.front.twist_rate = (next_angle - angle) / h
     check_circuits(world, p.stabilizers, world.later.stabilizers, mj.time)
