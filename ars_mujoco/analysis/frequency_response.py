@@ -102,9 +102,7 @@ def _measured_at(loop: Loop, amplitude: float, frequency: float) -> complex:
     samples = max(64, math.ceil(1.0 / (frequency * STEP)))
     settling, periods = (max(2, math.ceil(seconds * frequency)) for seconds in (SETTLING, MEASURED))
     axle, state, work = started(loop, 1.0 / (frequency * samples))
-    cosine, sine = _fundamental(
-        axle, state, work, loop.gain, amplitude, frequency, settling, periods, samples
-    )
+    cosine, sine = _fundamental(axle, state, work, loop.gain, amplitude, frequency, settling, periods, samples)
     return complex(sine, cosine) / amplitude
 
 

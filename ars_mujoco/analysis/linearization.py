@@ -36,9 +36,7 @@ OUTPUTS = ["angle", "pressure"]
 
 # around rest the equations are linear up to the saturations, the few Pa of an open check valve, and in the rate over a
 # small part of w_s
-NUDGES = np.array(
-    [1e-3, 1e-2, 1e3, 1e3, 1e-3, 1e-6] + [1.0] * FLOW_A + [1e-9] * (GALLERY - FLOW_A) + [1.0, 1e-4, 1e-6]
-)
+NUDGES = np.array([1e-3, 1e-2, 1e3, 1e3, 1e-3, 1e-6] + [1.0] * FLOW_A + [1e-9] * (GALLERY - FLOW_A) + [1.0, 1e-4, 1e-6])
 COMMAND_NUDGE = 1e-3
 LIFT = 1e2  # Pa, by which a line is lifted for its check valve to be shut; at rest it is open by a tenth of that
 

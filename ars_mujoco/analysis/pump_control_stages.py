@@ -30,7 +30,7 @@ UNITS = {"poles": "rad/s as (real, imaginary)", "bandwidth": "Hz", "phase": "deg
 
 
 def cylinder_frequency(loop: Loop) -> float:
-    """Natural frequency (rad/s) of eq. 16: the piston's mass between its two chambers of oil and the centring spring."""
+    """Natural frequency (rad/s) of eq. 16: the piston's mass on the oil of its two chambers and the centring spring."""
     circuit, edge = loop.circuit, loop.circuit.metering_edge
     cylinder, middle = circuit.control_cylinder, 0.5 * (edge.supply_pressure + edge.return_pressure)
     capacitance = common_capacitance(cylinder, loop.at_stage(REDUCED).detail.fluid, 0.0, middle)
@@ -99,8 +99,9 @@ def draw(result: dict[str, Any]) -> Figure:
     figure = Figure(figsize=(7.0, 5.4), layout="constrained")
     axes = figure.subplots(2, 1, sharex=True)
     for (name, response), shade, dash in zip(result["response"].items(), SHADES[::2], DASHES, strict=False):
+        text = name.replace("_", " ")
         for ax, quantity in zip(axes, ("magnitude", "phase"), strict=True):
-            ax.semilogx(result["frequency"], response[quantity], dash, color=shade, lw=1.5, label=name.replace("_", " "))
+            ax.semilogx(result["frequency"], response[quantity], dash, color=shade, lw=1.5, label=text)
     for ax in axes:
         for name in ("valve", "cylinder"):
             ax.axvline(result[name], color=DARK, lw=0.7, ls=":")

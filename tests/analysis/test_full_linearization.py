@@ -24,7 +24,6 @@ from ars_mujoco.analysis.steady_state import error
 from ars_mujoco.hydraulics.pump_control import FULL, REDUCED, THIRD_ORDER
 from ars_mujoco.inputs import read_inputs
 
-
 PLANT_SIZES = np.array([1e5, 1e5, 1e5, 1e5, 1e-5, 1e-5, 1e5, 0.01, 1.0])
 CONTROL_SIZES = np.array([0.1, 10.0, 0.1, 1e5, 1e5, 0.1])
 
