@@ -50,6 +50,14 @@ def reflected_inertia(loop: Loop) -> float:
     return 2.0 * inertance(loop.detail.pipe, loop.detail.fluid) * loop.circuit.motor.displacement**2
 
 
+def counted_inertia(loop: Loop) -> float:
+    """Of that, the inertia (kg m^2) that counts: a motor with this much more has, without the oil's mass, the hydraulic
+    frequency that the loop has with it.
+    """
+    without, with_mass = hydraulic_pair(without_oil_mass(loop))[0], hydraulic_pair(loop)[0]
+    return float(loop.circuit.motor.inertia * ((without / with_mass) ** 2 - 1.0))
+
+
 def hydraulic_pair(loop: Loop) -> tuple[float, float]:
     """(natural frequency rad/s, damping) of the plant's slowest oscillation, the bar's spring left out as in eq. 43."""
     poles = plant(replace(loop, stiffness=0.0)).poles()
@@ -95,7 +103,11 @@ def compute(loop: Loop) -> dict[str, Any]:
     between = math.sqrt(own[BOTH_SHUT]["without"]["stable"] * own[BOTH_SHUT]["with"][0]["stable"])
     return {
         "units": UNITS,
-        "inertia": {"oil": reflected_inertia(loop), "motor": float(loop.circuit.motor.inertia)},
+        "inertia": {
+            "oil": reflected_inertia(loop),
+            "counted": counted_inertia(loop),
+            "motor": float(loop.circuit.motor.inertia),
+        },
         "own_length": float(loop.detail.pipe.length),
         "own": own,
         "length": LENGTHS.tolist(),
@@ -111,8 +123,8 @@ def compute(loop: Loop) -> dict[str, Any]:
 
 def headline(result: dict[str, Any]) -> list[dict[str, str]]:
     """Rows of the table: inertia, frequency and stable gain without and with the oil's mass."""
-    oil, motor = result["inertia"]["oil"], result["inertia"]["motor"]
-    value = f"{oil:.2f} kg m^2, motor {motor:.3g} kg m^2"
+    inertia = result["inertia"]
+    value = "{oil:.2f} kg m^2, of which {counted:.2f} count; motor {motor:.3g}".format(**inertia)
     rows = [{"quantity": "inertia of the lines' oil at the motor", "value": value, "paper": "negligible"}]
     for checks in CHECKS:
         without, with_mass = result["own"][checks]["without"], result["own"][checks]["with"][0]

@@ -9,6 +9,7 @@ from bench import drive
 from full_theory import FRONT, REAR, held, softness
 
 from ars_mujoco.analysis.line_inertance import (
+    counted_inertia,
     hydraulic_pair,
     limits,
     reflected_inertia,
@@ -47,6 +48,18 @@ def test_without_mass_the_frequency_is_that_of_eq_43_with_the_series_capacitance
     found, _ = hydraulic_pair(without_oil_mass(loop))
     assert found == pytest.approx(motor.displacement / math.sqrt(series * motor.inertia), rel=0.01)
     assert found == pytest.approx(frequency, abs=1)
+
+
+@pytest.mark.parametrize(("loop", "counted"), [(FRONT, 0.129), (REAR, 0.309)])
+def test_a_quarter_to_a_third_of_the_oil_counts_as_if_it_were_on_the_motor(loop, counted):
+    assert counted_inertia(loop) == pytest.approx(counted, abs=0.002)
+    motor = without_oil_mass(loop).at({"inertia": loop.circuit.motor.inertia + counted_inertia(loop)})
+    assert hydraulic_pair(motor)[0] == pytest.approx(hydraulic_pair(loop)[0], rel=0.01)
+
+
+def test_all_of_it_on_the_motor_would_overstate_what_it_does():
+    heavy = without_oil_mass(REAR).at({"inertia": REAR.circuit.motor.inertia + reflected_inertia(REAR)})
+    assert hydraulic_pair(heavy)[0] == pytest.approx(171, abs=2)
 
 
 def test_with_mass_it_is_409_and_254_rad_s():
