@@ -27,5 +27,9 @@ def prepare(cycle: Cycle, actuator: Actuator, controller: Controller, vehicle: B
     check_timing(controller.unit, start.step)
     fill(start.parameters.stabilizers.loop, controller.loop)
     fill(start.parameters.stabilizers.unit, controller.unit)
+    if controller.pressure_feedback:
+        fill(start.parameters.stabilizers.feedback, controller.pressure_feedback)
+    if controller.compensator:
+        fill(start.parameters.stabilizers.compensator, controller.compensator)
     set_up = import_module(f"ars_mujoco.setup.{cycle.rig}").set_up
     return set_up(start, cycle, actuator, controller, vehicle)
