@@ -56,7 +56,7 @@ UNITS = {"frequency": "rad/s", "damping": "1", "lag": "deg", "gain": "1/Pa", "co
 
 def pressure_feedback(gain: float, corner: float, sample_time: float = 0.0) -> control.TransferFunction:
     """From pressure (Pa) to what is taken off the stroke command (1); digital where there is a sample time (s)."""
-    return _digital(control.tf([gain, 0.0], [1.0, corner]), corner, sample_time)
+    return gain * _digital(control.tf([1.0, 0.0], [1.0, corner]), corner, sample_time)
 
 
 def pole_compensator(
