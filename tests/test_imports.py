@@ -10,8 +10,6 @@ KERNELS = ("hydraulics.reduced_circuit", "control.bar_angle_loop", "control.acce
 
 @pytest.mark.parametrize("kernel", KERNELS)
 def test_a_kernel_imports_no_simulator_no_viewer_and_no_table(kernel):
-    program = (
-        f"import sys, ars_mujoco.{kernel}; print({{'mujoco', 'rerun', 'pyarrow', 'typer'}} & set(sys.modules))"
-    )
+    program = f"import sys, ars_mujoco.{kernel}; print({{'mujoco', 'rerun', 'pyarrow', 'typer'}} & set(sys.modules))"
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert result.stdout.strip() == "set()"

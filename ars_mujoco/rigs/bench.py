@@ -8,6 +8,8 @@ from ars_mujoco.actuators.axle import AxleOutput
 from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
 from ars_mujoco.excitation.excitation import EXCITATION, value
+from ars_mujoco.hydraulics.detailed_circuit import WORK
+from ars_mujoco.hydraulics.drive import DriveOutput
 from ars_mujoco.kernel import NativeCallback, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import stabilizers
@@ -15,6 +17,7 @@ from ars_mujoco.rigs.stabilizers import check_circuits, stabilize_both
 from ars_mujoco.world import begin, check_finite, layout_version, world_dtype
 
 NAME = "bench"
+NO_SPEED = 0.0  # m/s; the bench has no road
 
 
 class Ends(Parameters):
@@ -26,6 +29,7 @@ class Output(Parameters):
 
     ends: Ends
     front: AxleOutput
+    drive: DriveOutput
 
 
 PARAMETERS = np.dtype(
@@ -41,7 +45,7 @@ WORLD = world_dtype(
     PARAMETERS,
     np.dtype([("stabilizers", stabilizers.STATE)]),
     record_dtype(Output),
-    np.dtype([("rear", record_dtype(AxleOutput))]),
+    np.dtype([("rear", record_dtype(AxleOutput)), ("work", WORK)]),
 )
 
 
@@ -63,8 +67,8 @@ def step(world, mj) -> None:
     )
     held, now, later = (first + 4.0 * middle + last) / 6.0, world.now.stabilizers, world.later.stabilizers
     front, _ = stabilize_both(
-        p.stabilizers, now, later, world.out.front, world.scratch.rear,
-        mj.time, h, parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), (first, 0.0, held), (0.0, 0.0, 0.0),
+        p.stabilizers, now, later, world.out.drive, world.out.front, world.scratch.rear, mj.time, h, NO_SPEED,
+        parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), (first, 0.0, held), (0.0, 0.0, 0.0), world.scratch.work,
     )  # fmt: skip
     # no rate was given, because the work of a known motion is counted here, even where it jumps
     later.front.work += work(p.stabilizers.front.stiffness, now.front.circuit.angle, first, held)

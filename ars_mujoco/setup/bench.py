@@ -1,6 +1,6 @@
 """Set-up of the bench."""
 
-from ars_mujoco.actuators.actuator import Actuator, Locked, PumpControlled, fill_axle
+from ars_mujoco.actuators.actuator import Actuator, Locked, PumpControlled
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.cycle import Cycle
 from ars_mujoco.errors import InputError
@@ -21,7 +21,7 @@ def set_up(start: Start, cycle: Cycle, actuator: Actuator, controller: Controlle
         actuator = Locked(kind="locked")
     elif manoeuvre.motor == "free":
         actuator, parameters.stabilizers.loop.gain = _short_circuited(actuator), 0.0
-    fill_axle(parameters.stabilizers.front, actuator, "front", vehicle.stiffness, 0.0, start.step)
+    start.fill_stabilizer("front", actuator, vehicle.stiffness, 0.0)
     if manoeuvre.command:
         parameters.command = manoeuvre.command.record()
     parameters.ends = manoeuvre.ends.record()
