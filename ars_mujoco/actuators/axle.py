@@ -9,6 +9,7 @@ only at the next call.
 """
 
 from ars_mujoco.channels import Signal
+from ars_mujoco.hydraulics.pump import extrapolation
 from ars_mujoco.hydraulics.reduced_circuit import (
     CircuitEnergy,
     CircuitState,
@@ -65,6 +66,7 @@ class PumpOutput(Parameters):
     shaft_power: Signal("W", "power taken from the shaft, negative where it is given back")
     loss_power: Signal("W", "lost to the pump's torque loss")
     leakage_power: Signal("W", "lost to leakage in the pump, its flow loss")
+    extrapolation: Signal("1", "how far the pump is outside the range of its losses, as a share of the range's end")
 
 
 class ReliefOutput(Parameters):
@@ -153,6 +155,7 @@ def _report(axle, now, out, twist):
     out.pump.flow = circuit.pump.displacement * circuit.pump.speed * min(max(state.stroke, -1.0), 1.0)
     out.pump.shaft_power, out.pump.loss_power = shaft, loss
     out.pump.leakage_power = pump_leakage
+    out.pump.extrapolation = extrapolation(circuit.pump, state.stroke, state.pressure)
     out.relief.power = relief
     energy = now.energy
     out.energy.shaft, out.energy.recovered = energy.shaft, energy.recovered

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 STORED = ("oil", "bar", "inertia")
 LOSSES = ("pump_torque_loss", "pump_leakage", "motor_leakage", "relief", "friction", "capacitance")
-EVEN = ("power", "energy")  # channels with these in their name do not change sign with the side
+EVEN = ("power", "energy", "extrapolation")  # channels with these in their name do not change sign with the side
 
 
 def knots(largest, unit):
