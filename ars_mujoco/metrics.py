@@ -326,8 +326,8 @@ def _farthest(run: Run, axle: str, far: np.ndarray) -> str:
     time, i = run.recording.time, int(np.argmax(far))
     stroke, pressure = (abs(run.recording[f"{axle}.{name}"][i]) for name in ("pump.stroke", "motor.pressure"))
     return (
-        f"the losses of the {axle} pump are extrapolated from {time[far > 0.0][0]:.3f} s on, farthest at {time[i]:.3f} s "
-        f"(stroke {100 * stroke:.1f} %, {pressure / BAR:.1f} bar): {100 * far[i]:.2g} % beyond their range"
+        f"the losses of the {axle} pump are extrapolated from {time[far > 0.0][0]:.3f} s on, at most by "
+        f"{100 * far[i]:.2g} % at {time[i]:.3f} s (stroke {100 * stroke:.1f} %, {pressure / BAR:.1f} bar)"
     )
 
 

@@ -9,7 +9,7 @@ gives energy.
 """
 
 import re
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from pydantic import AfterValidator
@@ -98,15 +98,36 @@ class LossPolynomial(Parameters):
         """Least and largest stroke, speed (rad/s) and pressure (Pa)."""
         return self.validity.stroke, self.validity.speed, self.validity.pressure
 
+    def scaled(self, ratio: float) -> Self:
+        """The loss of a geometrically similar machine of `ratio` times the displacement.
+
+        Lengths grow by l = ratio^(1/3). At the same pressure and the same speed of the sliding parts, that is at n/l,
+        its losses are the same shares of its flow and torque: norms go as V n (l^2) and V dp (l^3), n_norm and the
+        range of speeds as 1/l, and the coefficients stay.
+        """
+        length = ratio ** (1.0 / 3.0)
+        validity = self.validity.model_copy(update={"speed": tuple(end / length for end in self.validity.speed)})
+        return self.model_copy(
+            update={
+                "norm": self.norm * length**self.GROWTH,
+                "normal_speed": self.normal_speed / length,
+                "validity": validity,
+            }
+        )
+
 
 class FlowLoss(LossPolynomial):
     """Eq. 21."""
+
+    GROWTH: ClassVar[int] = 2  # power of a length that the norm goes with
 
     norm: Quantity("m^3/s", ge=0)  # Q_S,norm
 
 
 class TorqueLoss(LossPolynomial):
     """Eq. 22."""
+
+    GROWTH: ClassVar[int] = 3
 
     norm: Quantity("Nm", ge=0)  # M_S,norm
 

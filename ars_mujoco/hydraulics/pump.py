@@ -24,8 +24,10 @@ class Pump(Parameters):
         for name in ("torque_loss", "flow_loss"):
             loss = getattr(self, name)
             if loss and not loss.validity.speed[0] <= self.speed <= loss.validity.speed[1]:
-                rpm = (f"{30.0 / math.pi * speed:.6g}" for speed in (self.speed, *loss.validity.speed))
-                raise ValueError("a speed of {} rpm is outside the range of the {name}; allowed: {} to {} rpm".format(*rpm, name=name))
+                speed, least, most = (30.0 / math.pi * each for each in (self.speed, *loss.validity.speed))
+                raise ValueError(
+                    f"speed: {speed:.6g} rpm is outside the range of {name}; allowed: {least:.6g} to {most:.6g} rpm"
+                )
         return self
 
 
