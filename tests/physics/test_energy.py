@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 STORED = ("oil", "bar", "inertia")
 LOSSES = ("pump_torque_loss", "pump_leakage", "motor_leakage", "relief", "friction", "capacitance")
-EVEN = ("power", "energy", "drive", "pump.speed")  # channels with these in their name do not change sign with the side
+# channels with these in their name do not change sign with the side
+EVEN = ("power", "energy", "drive", "pump.speed", "extrapolation")
 
 
 def knots(largest, unit):
