@@ -3,27 +3,34 @@
 import mujoco
 import numpy as np
 
-from ars_mujoco.actuators.axle import PUMP_CONTROLLED, Axle, AxleState, stabilize
+from ars_mujoco.actuators.axle import DETAILED, PUMP_CONTROLLED, Axle, AxleState, stabilize
 from ars_mujoco.control import pole_compensator, pressure_feedback
 from ars_mujoco.control.bar_angle_loop import BarAngleLoop, limited, outer_gain
 from ars_mujoco.control.control_unit import DELAY_LINE, ControlUnit, delayed, samples_now
 from ars_mujoco.control.pole_compensator import PoleCompensator, compensated
 from ars_mujoco.control.pressure_feedback import PressureFeedback, fed_back
+from ars_mujoco.hydraulics.drive import DRIVE, DriveState, set_speed, take_work
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import record_dtype
 from ars_mujoco.saturation import saturate
+from ars_mujoco.signal import SIGNAL, value
 from ars_mujoco.world import BURST, stop
 
 BURST_PRESSURE = 1e8  # Pa; no relief valve lets a real circuit get near 1000 bar
 BARS = ("front_bar_left", "front_bar_right", "rear_bar_left", "rear_bar_right")
 BAR_ADDRESSES = np.dtype([("position", "f8", 4), ("velocity", "f8", 4)])
 
+# commanded openings over time, 0 shut and 1 open
+VALVES = np.dtype([("bypass", SIGNAL), ("fail_safe", SIGNAL)])
 PARAMETERS = np.dtype(
     [
         ("front", record_dtype(Axle)),
         ("rear", record_dtype(Axle)),
+        ("drive", DRIVE),
         ("loop", record_dtype(BarAngleLoop)),
         ("unit", record_dtype(ControlUnit)),
+        ("front_valves", VALVES),
+        ("rear_valves", VALVES),
         ("feedback", record_dtype(PressureFeedback)),  # a gain of 0: none
         ("compensator", record_dtype(PoleCompensator)),  # a frequency of 0: none
     ]
@@ -33,6 +40,7 @@ STATE = np.dtype(
     [
         ("front", record_dtype(AxleState)),
         ("rear", record_dtype(AxleState)),
+        ("drive", record_dtype(DriveState)),
         ("delay", DELAY_LINE),
         ("front_stroke", "f8"),  # stroke commands that a sampling unit last computed
         ("rear_stroke", "f8"),
@@ -44,14 +52,18 @@ STATE = np.dtype(
 
 @kernel
 def stabilize_both(
-    p, now, later, front_out, rear_out, time, step, front_command, rear_command, front_twist, rear_twist
-):
+    p, now, later, drive_out, front_out, rear_out, time, step, road_speed,
+    front_command, rear_command, front_twist, rear_twist, work,
+):  # fmt: skip
     """Advance both axles by `step` s; return their bar torques (front, rear) in Nm.
 
-    Commands are (c0, c1, c2) over the step as in `reduced_circuit.advance`; twists as in `axle.stabilize`.
+    The outs are a DriveOutput and two AxleOutput records; an engine turns with the road speed (m/s). Commands are
+    (c0, c1, c2) over the step as in `reduced_circuit.advance`; twists and work as in `axle.stabilize`.
     A continuous unit delays the commanded angle and leaves the outer loop to the substeps; a sampling unit computes the
     outer loop itself and delays the stroke.
     """
+    pumps = p.front.circuit.pump, p.rear.circuit.pump
+    set_speed(p.drive, now.drive, later.drive, drive_out, pumps, time, road_speed)
     front_gain, rear_gain = _gain(p.front, p.loop), _gain(p.rear, p.loop)
     front_command, rear_command = _limited(p.loop, front_command), _limited(p.loop, rear_command)
     front_bias = rear_bias = 0.0
@@ -72,10 +84,14 @@ def stabilize_both(
             )
         front_bias, rear_bias = delayed(p.unit, later.delay, later.front_stroke, later.rear_stroke, step)
         front_gain = rear_gain = 0.0
-    return stabilize(
+    torques = stabilize(
         p, now, later, front_out, rear_out, front_twist, rear_twist,
-        (front_command, front_gain, front_bias), (rear_command, rear_gain, rear_bias), step,
+        (front_command, front_gain, front_bias), (rear_command, rear_gain, rear_bias),
+        (_openings(p.front, p.front_valves, time), _openings(p.rear, p.rear_valves, time)), step, work,
     )  # fmt: skip
+    done = later.front.energy.shaft - now.front.energy.shaft + later.rear.energy.shaft - now.rear.energy.shaft
+    take_work(p.drive, now.drive, later.drive, drive_out, done, step)
+    return torques
 
 
 @kernel
@@ -91,7 +107,15 @@ def _stroke(p, now, later, circuit, gain, command):
 
 @kernel
 def _gain(axle, loop):
-    return outer_gain(loop, axle.circuit.pump.speed) if axle.kind == PUMP_CONTROLLED else 0.0
+    return outer_gain(loop, axle.circuit.pump.speed) if axle.kind >= PUMP_CONTROLLED else 0.0
+
+
+@kernel
+def _openings(axle, valves, time):
+    # commanded at `time`; only a detailed circuit has valves to command
+    if axle.kind == DETAILED:
+        return value(valves.bypass, time), value(valves.fail_safe, time)
+    return 0.0, 1.0
 
 
 @kernel
@@ -144,4 +168,4 @@ def check_circuits(world, stabilizers, state, time: float) -> None:
 @kernel
 def _is_beyond(axle, circuit) -> bool:
     too_far = abs(circuit.angle) > 2.0 * axle.circuit.motor.stop_angle
-    return axle.kind == PUMP_CONTROLLED and (too_far or abs(circuit.pressure) > BURST_PRESSURE)
+    return axle.kind >= PUMP_CONTROLLED and (too_far or abs(circuit.pressure) > BURST_PRESSURE)
