@@ -66,7 +66,9 @@ class Loop:
 
 
 def loop_of(inputs: Inputs) -> Loop:
-    """The front axle's loop of a bench run's `inputs`. Raises InputError where the actuator has no loop."""
+    """The front axle's loop of a bench run's `inputs`, without the controller's own compensators, if any: those that
+    `compensators` looks at are the analysis's. Raises InputError where the actuator has no loop.
+    """
     actuator, controller = inputs.actuator.value, inputs.controller.value
     if not isinstance(actuator, PumpControlled):
         raise InputError(f"actuator '{actuator.kind}' has no loop to analyse; allowed: pump_controlled")
