@@ -41,10 +41,13 @@ class Start:
     def fill_stabilizer(self, axle: str, actuator: Actuator, stiffness: float, passive_stiffness: float) -> None:
         """Write an axle ("front" or "rear") of `actuator` as `actuator.fill_axle` does, at rest and charged."""
         stabilizers = self.parameters.stabilizers
-        fill_axle(stabilizers[axle], actuator, axle, stiffness, passive_stiffness, self.step)
+        bypassed = bool(np.any(getattr(self.cycle.valves, f"{axle}_bypass").signal().values))
+        fill_axle(stabilizers[axle], actuator, axle, stiffness, passive_stiffness, self.step, bypassed)
         start_axle(stabilizers[axle], self.world[0].now.stabilizers[axle])
         if self.cycle.valves != Valves() and getattr(actuator, "circuit", "full") != "full":
-            raise InputError(f"valves: the circuit '{actuator.circuit}' has none to command; allowed with circuit: full")
+            raise InputError(
+                f"valves: the circuit '{actuator.circuit}' has none to command; allowed with circuit: full"
+            )
         for valve in ("bypass", "fail_safe"):
             stabilizers[f"{axle}_valves"][valve] = getattr(self.cycle.valves, f"{axle}_{valve}").signal()
 
