@@ -15,6 +15,7 @@ def test_the_shipped_cycles_are_those_of_the_project():
         "bench_step_10deg",
         "bench_step_1deg",
         "bench_sweep",
+        "robot_step",
         "roll_plane_step",
         "s_curve_120kmh",
         "single_wheel_bump",
@@ -51,7 +52,7 @@ def test_an_unknown_name_is_answered_with_the_nearest_and_all():
     with pytest.raises(InputError) as error:
         library.find("actuator", "pasive")
     assert str(error.value) == (
-        "no actuator 'pasive'; did you mean 'passive'? shipped: locked, none, passive, pump_controlled"
+        "no actuator 'pasive'; did you mean 'passive'? shipped: locked, none, passive, pump_controlled, robot_joint"
     )
 
 
@@ -67,7 +68,7 @@ def test_whatever_is_no_file_is_answered_in_one_line(name, tmp_path, monkeypatch
     (tmp_path / "folder.yaml").mkdir()
     with pytest.raises(InputError) as error:
         library.find("vehicle", name)
-    assert str(error.value) == f"no vehicle '{name}'; shipped: bench, roll_plane, sedan"
+    assert str(error.value) == f"no vehicle '{name}'; shipped: bench, robot_joint, roll_plane, sedan"
 
 
 def test_a_folder_is_no_file(tmp_path):
