@@ -5,8 +5,6 @@ import math
 import numpy as np
 import pytest
 from detailed import axle, drive, rates
-from hypothesis import given
-from hypothesis import strategies as st
 
 from ars_mujoco.hydraulics.fail_safe_valve import fail_safe_drop
 from ars_mujoco.hydraulics.full_circuit import (
