@@ -1,9 +1,9 @@
 """Stable region of the gain over all of Table 2, by the parameter-space method (Ackermann; paper section 5).
 
 With G the open loop over its gain, the closed loop has roots on the imaginary axis where K = -1/G(jw) is real: at the
-imaginary zeros of G(s) - G(-s), found as eigenvalues, so that the boundary is exact and nothing is sampled. Turned by an
-angle, K = -e^(j theta)/G(jw), the same gives the gains at which the phase margin is theta; the gain margin shifts the
-boundary by its factor. Both bound the region of good damping (Gamma).
+imaginary zeros of G(s) - G(-s), found as eigenvalues, so that the boundary is exact and nothing is sampled. Turned by
+an angle, K = -e^(j theta)/G(jw), the same gives the gains at which the phase margin is theta; the gain margin shifts
+the boundary by its factor. Both bound the region of good damping (Gamma).
 """
 
 import cmath

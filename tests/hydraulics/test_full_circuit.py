@@ -267,7 +267,6 @@ def test_every_loss_but_the_capacitances_costs_at_any_state(lumps):
 @EACH
 def test_a_mirrored_state_moves_mirrored(lumps):
     parameters, random = record(lumps), np.random.default_rng(lumps)
-    half, lines = slice(A, B), slice(FLOW_A, FLOW_B)
     for _ in range(100):
         x, stroke, twist = any_state(lumps, random), random.uniform(-1.2, 1.2), random.uniform(-0.5, 0.5)
         derivatives, powers = rates(parameters, x, stroke, twist)
