@@ -9,6 +9,7 @@ from ars_mujoco.errors import InputError
 def test_the_shipped_cycles_are_those_of_the_project():
     assert list(library.shipped("cycle")) == [
         "bench_ends_free",
+        "bench_fail_safe",
         "bench_recorded",
         "bench_s_curve",
         "bench_sine",
@@ -19,6 +20,7 @@ def test_the_shipped_cycles_are_those_of_the_project():
         "roll_plane_step",
         "s_curve_120kmh",
         "single_wheel_bump",
+        "single_wheel_bump_decoupled",
         "steady_circle_iso4138",
         "step_steer_iso7401",
     ]
@@ -52,8 +54,8 @@ def test_an_unknown_name_is_answered_with_the_nearest_and_all():
     with pytest.raises(InputError) as error:
         library.find("actuator", "pasive")
     assert str(error.value) == (
-        "no actuator 'pasive'; did you mean 'passive'? "
-        "shipped: locked, none, passive, pump_controlled, pump_controlled_full, robot_joint"
+        "no actuator 'pasive'; did you mean 'passive'? shipped: locked, none, passive, pump_controlled, "
+        "pump_controlled_full, robot_joint"
     )
 
 
