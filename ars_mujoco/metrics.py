@@ -26,8 +26,11 @@ FIT = 0.01  # g, half width of the straight line through a row of the table
 QUASI_STATIC = (0.5, 0.05)  # s, g; a slow circle changes its lateral acceleration by less than this in that time
 
 LEAST_THROUGHPUT = 1.0  # J; below it the audit's error is absolute
-STORED = ("oil", "bar", "inertia")
-LOSSES = ("pump_torque_loss", "pump_leakage", "motor_leakage", "relief", "friction", "capacitance")
+STORED = ("oil", "bar", "inertia", "oil_motion")
+LOSSES = (
+    "pump_torque_loss", "pump_leakage", "motor_leakage", "relief", "friction", "capacitance", "line", "check", "bypass",
+    "tank_leakage", "charge_loss",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -333,4 +336,5 @@ def _total(run: Run, name: str) -> float:
 
 def _astray(run: Run, axle: str) -> float:
     """Shaft work that the balance of an axle does not find again [J]; the charge supply is drawn and lost alike."""
-    return _change(run, axle, "shaft") - sum(_change(run, axle, name) for name in (*STORED, *LOSSES, "work"))
+    drawn = _change(run, axle, "shaft") + _change(run, axle, "charge")
+    return drawn - sum(_change(run, axle, name) for name in (*STORED, *LOSSES, "work"))

@@ -5,11 +5,12 @@ the record that the compiled kernels read (`record_dtype`), so that no value is 
 """
 
 from functools import partial
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar, get_args
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationInfo, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, PlainSerializer, ValidationInfo, model_validator
 
+from ars_mujoco.suggestion import did_you_mean
 from ars_mujoco.units import Unit, to_si
 
 
@@ -23,6 +24,17 @@ def Number(**limits: float):  # noqa: N802
     return Quantity("1", **limits)
 
 
+def Choice(*names: str):  # noqa: N802
+    """The type of a field that is one of `names` in the file, and the place of that name, a float, in the record."""
+
+    def place(value: object) -> float:
+        if value not in names:
+            raise ValueError(f"unknown{did_you_mean(str(value), names)}; allowed: {', '.join(names)}")
+        return float(names.index(value))
+
+    return Annotated[float, BeforeValidator(place), PlainSerializer(lambda value: names[int(value)], when_used="json")]
+
+
 class Parameters(BaseModel):
     """A block of parameters: unknown keys are errors, values are SI, instances do not change.
 
@@ -31,6 +43,8 @@ class Parameters(BaseModel):
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    RECORD: ClassVar[np.dtype | None] = None  # of a block whose record is not its fields, but what these attributes are
 
     @model_validator(mode="before")
     @classmethod
@@ -41,29 +55,30 @@ class Parameters(BaseModel):
 
 
 def record_dtype(model: type[Parameters]) -> np.dtype:
-    """The numpy record of `model`: a float64 for each float field, nested blocks as nested records, in field order."""
+    """The numpy record of `model`: a float64 for each float field, nested blocks as nested records, in field order.
+
+    Blocks that may be absent have their room too; a block with a RECORD of its own has that.
+    """
+    if model.RECORD:
+        return model.RECORD
+    kept = {name: _kept(field.annotation) for name, field in model.model_fields.items()}
     return np.dtype(
-        [
-            (name, _field_dtype(field.annotation))
-            for name, field in model.model_fields.items()
-            if _kept(field.annotation)
-        ]
+        [(name, np.float64 if each is float else record_dtype(each)) for name, each in kept.items() if each]
     )
 
 
 def fill(record: Any, parameters: Parameters) -> None:
-    """Write `parameters` into a numpy record of `record_dtype(type(parameters))`."""
+    """Write `parameters` into a numpy record of `record_dtype(type(parameters))`; an absent block is all zeros."""
     for name in record.dtype.names:
         value = getattr(parameters, name)
         if isinstance(value, Parameters):
             fill(record[name], value)
         else:
-            record[name] = value
+            record[name] = 0.0 if value is None else value
 
 
-def _kept(annotation: Any) -> bool:
-    return annotation is float or isinstance(annotation, type) and issubclass(annotation, Parameters)
-
-
-def _field_dtype(annotation: Any) -> Any:
-    return np.float64 if annotation is float else record_dtype(annotation)
+def _kept(annotation: Any) -> type | None:
+    """What a record keeps of a field: a float or a block, the latter also where it may be absent; else None."""
+    options = [each for each in get_args(annotation) or [annotation] if each is not type(None)]
+    (only,) = options if len(options) == 1 else (None,)
+    return only if only is float or isinstance(only, type) and issubclass(only, Parameters) else None

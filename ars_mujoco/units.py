@@ -1,7 +1,7 @@
 """The one place that turns users' units into SI: "1.8 cm^3/rev" becomes 2.865e-7 (m^3/rad).
 
 Angle is a dimension of its own here, so that a displacement a revolution cannot pass for one a radian, nor 60 Hz for
-60 rad/s. A lone g is standard gravity, never gram.
+60 rad/s. A lone g is standard gravity, never gram. Temperatures in degC are points of the scale, not differences.
 """
 
 import math
@@ -37,6 +37,8 @@ pascal = newton / meter ** 2 = Pa
 bar = 1e5 * pascal = bar
 joule = newton * meter = J
 watt = joule / second = W
+kelvin = [temperature] = K
+degree_celsius = kelvin; offset: 273.15 = degC
 percent = 0.01 = %
 """.replace("pi", repr(math.pi))
 
@@ -44,7 +46,8 @@ percent = 0.01 = %
 SPELLINGS = (
     "m cm mm km s ms min h kg rad deg rev 1/rad 1/deg 1/m 1/s Hz rad/s deg/s rpm m/s km/h m/s^2 g rad/m deg/m deg/g "
     "N kN N/m kN/m N/mm Ns/m kNs/m Nm kNm J kJ Nm/rad Nm/deg kNm/rad Nms/rad Nms/deg kg*m^2 rad/s^2 "
-    "Pa kPa MPa bar cm^3 L m^3 cm^3/rev cm^3/rad m^3/rad L/min m^3/s m^3/s/Pa m^3/Pa W kW 1 %"
+    "Pa kPa MPa bar cm^3 L m^3 cm^3/rev cm^3/rad m^3/rad L/min m^3/s m^3/s/Pa m^3/Pa W kW 1 % "
+    "kg/m^3 m^2/s mm^2/s 1/Pa 1/bar K degC"
 ).split()
 
 NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
@@ -77,11 +80,12 @@ def to_si(value: object, unit: str, **limits: float) -> float:
     own_factor, own_dimension = measure(unit)
     if dimension != own_dimension:
         raise ValueError(f"wrong unit; allowed: {allowed(unit)}")
-    result = number * (factor / own_factor)
+    offset = zero(written or "1")
+    result = number * (factor / own_factor) + offset / own_factor
     for name, limit in limits.items():
         words, holds = LIMITS[name]
         if not holds(result, float(limit)):
-            raise ValueError(f"must be {words} {limit * own_factor / factor:g} {written}".rstrip())
+            raise ValueError(f"must be {words} {(limit * own_factor - offset) / factor:g} {written}".rstrip())
     return result
 
 
@@ -107,6 +111,12 @@ def measure(unit: str) -> tuple[float, object]:
     except (AssertionError, ArithmeticError, TypeError, ValueError, pint.PintError, tokenize.TokenError):
         raise ValueError(f"'{unit}' is not a unit; written like 'kg*m^2' or 'm^3/s/Pa'") from None
     return float(factor), registry().get_dimensionality(base)
+
+
+@cache
+def zero(unit: str) -> float:
+    """Where the scale of `unit` begins, in base units: 273.15 (K) for degC, 0 for units that are plain factors."""
+    return float(registry().Quantity(0.0, "" if unit == "1" else unit).to_base_units().magnitude)
 
 
 def allowed(unit: str) -> str:

@@ -1,13 +1,20 @@
 """Actuators: the stabilizers a user can choose, read from a file and turned into the two axles' parameters."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag, model_validator
 
-from ars_mujoco.actuators.axle import NO_BAR, PUMP_CONTROLLED, TORSION_BAR
-from ars_mujoco.hydraulics.reduced_circuit import ReducedCircuit
-from ars_mujoco.hydraulics.substeps import substeps
+from ars_mujoco.actuators.axle import DETAILED, NO_BAR, PUMP_CONTROLLED, TORSION_BAR
+from ars_mujoco.hydraulics.detailed_circuit import FULL_PLANT, REDUCED_PLANT, start_detailed
+from ars_mujoco.hydraulics.full_circuit import FullCircuit
+from ars_mujoco.hydraulics.oil import fluid
+from ars_mujoco.hydraulics.pump_control import FULL, REDUCED, THIRD_ORDER
+from ars_mujoco.hydraulics.reduced_circuit import Circuit, ReducedCircuit
+from ars_mujoco.hydraulics.substeps import detailed_substeps, substeps
+from ars_mujoco.hydraulics.temperature import at_temperature
 from ars_mujoco.parameters import Parameters, fill
+
+AXLES = ("front", "rear")
 
 
 class NoBar(Parameters):
@@ -28,16 +35,45 @@ class Locked(Parameters):
     kind: Literal["locked"]
 
 
+STAGES = {"third_order": THIRD_ORDER, "reduced": REDUCED, "full": FULL}
+
+
 class PumpControlled(Parameters):
-    """The pump-controlled active bar, front and rear."""
+    """The pump-controlled active bar, front and rear, each with the reduced circuit."""
 
     kind: Literal["pump_controlled"]
     circuit: Literal["reduced"] = "reduced"
+    pump_control: Literal["third_order", "reduced", "full"] = "third_order"  # stage of simplification
     front: ReducedCircuit
     rear: ReducedCircuit
 
+    @model_validator(mode="after")
+    def _has_what_its_stage_needs(self) -> "PumpControlled":
+        needed = ("oil", "metering_edge", "control_cylinder") if self.pump_control != "third_order" else ()
+        missing = [f"{axle}.{key}" for axle in AXLES for key in needed if getattr(getattr(self, axle), key) is None]
+        if missing:
+            raise ValueError(f"pump_control '{self.pump_control}' needs {', '.join(missing)}")
+        return self
 
-Actuator = Annotated[NoBar | Passive | Locked | PumpControlled, Field(discriminator="kind")]
+
+class FullPumpControlled(PumpControlled):
+    """The same, each with the full circuit."""
+
+    circuit: Literal["full"]
+    front: FullCircuit
+    rear: FullCircuit
+
+
+def _circuit(actuator: Any) -> str:
+    """Which circuit a file's or an instance's actuator has; what is none of them is judged as the reduced one."""
+    named = actuator.get("circuit") if isinstance(actuator, dict) else getattr(actuator, "circuit", None)
+    return "full" if named == "full" else "reduced"
+
+
+AnyPumpControlled = Annotated[
+    Annotated[PumpControlled, Tag("reduced")] | Annotated[FullPumpControlled, Tag("full")], Discriminator(_circuit)
+]
+Actuator = Annotated[NoBar | Passive | Locked | AnyPumpControlled, Field(discriminator="kind")]
 
 
 def fill_axle(record, actuator: Actuator, axle: str, stiffness: float, passive_stiffness: float, step: float):
@@ -54,6 +90,35 @@ def fill_axle(record, actuator: Actuator, axle: str, stiffness: float, passive_s
         case Locked():
             record.kind, record.stiffness = TORSION_BAR, stiffness
         case PumpControlled():
-            record.kind, record.stiffness = PUMP_CONTROLLED, stiffness
-            fill(record.circuit, getattr(actuator, axle))
-            record.substeps = substeps(record.circuit, stiffness, step)
+            record.stiffness = stiffness
+            _fill_circuit(record, actuator, at_temperature(getattr(actuator, axle)))
+            if record.kind == DETAILED:
+                record.substeps = detailed_substeps(record, step)
+            else:
+                record.substeps = substeps(record.circuit, stiffness, step)
+
+
+def start_axle(record, state) -> None:
+    """Write the state at rest of the axle with these parameters into an `axle.AxleState` record."""
+    if record.kind == DETAILED:
+        start_detailed(record, state)
+
+
+def _fill_circuit(record, actuator: PumpControlled, circuit: ReducedCircuit | FullCircuit) -> None:
+    for name in Circuit.model_fields:
+        if getattr(circuit, name) is not None:
+            fill(record.circuit[name], getattr(circuit, name))
+    is_full = isinstance(circuit, FullCircuit)
+    if not is_full:
+        fill(record.circuit.line, circuit.line)
+        record.circuit.charge_power = circuit.charge_power
+        if actuator.pump_control == "third_order":
+            record.kind = PUMP_CONTROLLED
+            return
+    record.kind, detail = DETAILED, record.detail
+    detail.stage, detail.plant = STAGES[actuator.pump_control], FULL_PLANT if is_full else REDUCED_PLANT
+    fill(detail.fluid, fluid(circuit.oil))
+    if is_full:
+        for name in ("pipe", "charge_pump", "check_valve", "bypass_valve", "fail_safe_valve"):
+            fill(detail[name], getattr(circuit, name))
+        detail.tank_leakage = circuit.tank_leakage

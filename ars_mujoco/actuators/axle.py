@@ -9,6 +9,31 @@ only at the next call.
 """
 
 from ars_mujoco.channels import Signal
+from ars_mujoco.hydraulics.detailed_circuit import (
+    FULL_PLANT,
+    Detail,
+    DetailState,
+    advance_detailed,
+    control_state,
+    detailed_rates,
+)
+from ars_mujoco.hydraulics.full_circuit import (
+    BYPASS,
+    CHARGE,
+    FAIL_SAFE,
+    FRICTION,
+    GALLERY,
+    MOTOR,
+    MOTOR_LEAKAGE,
+    PUMP_LEAKAGE,
+    RELIEF,
+    SHAFT,
+    TORQUE_LOSS,
+    A,
+    B,
+    stored_energies,
+)
+from ars_mujoco.hydraulics.pump_control import control_power
 from ars_mujoco.hydraulics.reduced_circuit import (
     CircuitEnergy,
     CircuitState,
@@ -22,22 +47,25 @@ from ars_mujoco.hydraulics.reduced_circuit import (
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Number, Parameters, Quantity
 
-NO_BAR, TORSION_BAR, PUMP_CONTROLLED = 0.0, 1.0, 2.0
+NO_BAR, TORSION_BAR, PUMP_CONTROLLED, DETAILED = 0.0, 1.0, 2.0, 3.0
 
 
 class Axle(Parameters):
     """Parameters of one axle's stabilizer."""
 
-    kind: Number()  # NO_BAR, TORSION_BAR (passive, or the active bar locked) or PUMP_CONTROLLED
+    kind: Number()  # NO_BAR, TORSION_BAR (passive, or the active bar locked), PUMP_CONTROLLED (the verification set)
+    # or DETAILED (any other stage of pump control, or the full circuit)
     stiffness: Quantity("Nm/rad", ge=0)  # torsion of the bar, both halves in series
     substeps: Number(ge=0)  # of the circuit in a physics step
     circuit: ReducedCircuit
+    detail: Detail
 
 
 class AxleState(Parameters):
     """State of one axle's stabilizer."""
 
     circuit: CircuitState
+    detail: DetailState
     energy: CircuitEnergy
     torque: Signal("Nm", "mean bar torque over the last step")
     twist_rate: Signal("rad/s", "rate of the twist at the start of the last step")
@@ -53,6 +81,8 @@ class BarOutput(Parameters):
 
 class MotorOutput(Parameters):
     pressure: Signal("Pa", "pressure difference across the motor")
+    pressure_a: Signal("Pa", "absolute pressure in the chamber that drives to positive angle (full circuit)")
+    pressure_b: Signal("Pa", "absolute pressure in the other chamber (full circuit)")
     rate: Signal("rad/s", "rate of the motor angle")
     output_power: Signal("W", "power of the motor on the bar")
     leakage_power: Signal("W", "lost to leakage in the motor")
@@ -61,14 +91,27 @@ class MotorOutput(Parameters):
 
 class PumpOutput(Parameters):
     stroke: Signal("1", "stroke of the swash plate, fraction of full")
+    control_pressure: Signal("Pa", "pressure difference across the control cylinder (where pump control has one)")
+    pressure_a: Signal("Pa", "absolute pressure at the pump's port to side A (full circuit)")
+    pressure_b: Signal("Pa", "absolute pressure at its port to side B (full circuit)")
     flow: Signal("m^3/s", "flow of the pump without its leakage")
     shaft_power: Signal("W", "power taken from the shaft, negative where it is given back")
     loss_power: Signal("W", "lost to the pump's torque loss")
-    leakage_power: Signal("W", "lost to leakage in the pump")
+    leakage_power: Signal("W", "lost to leakage in the pump, its flow loss")
 
 
 class ReliefOutput(Parameters):
     power: Signal("W", "lost over the relief valve")
+
+
+class ChargeOutput(Parameters):
+    pressure: Signal("Pa", "absolute pressure of the charge gallery (full circuit)")
+    power: Signal("W", "power drawn by charge and control supply")
+
+
+class ValveOutput(Parameters):
+    bypass: Signal("1", "opening of the bypass valve (full circuit)")
+    fail_safe: Signal("1", "opening of the fail-safe valve (full circuit)")
 
 
 class EnergyOutput(CircuitEnergy):
@@ -76,6 +119,7 @@ class EnergyOutput(CircuitEnergy):
     oil: Signal("J", "stored in the oil's compression")
     bar: Signal("J", "stored in the bar's torsion and the motor's mechanical stop")
     inertia: Signal("J", "stored in the motor's inertia")
+    oil_motion: Signal("J", "stored in the moving oil of the lines")
 
 
 class AxleOutput(Parameters):
@@ -85,16 +129,21 @@ class AxleOutput(Parameters):
     motor: MotorOutput
     pump: PumpOutput
     relief: ReliefOutput
+    charge: ChargeOutput
+    valve: ValveOutput
     energy: EnergyOutput
 
 
 @kernel
-def stabilize(p, now, later, front_out, rear_out, front_twist, rear_twist, front_demand, rear_demand, step):
+def stabilize(
+    p, now, later, front_out, rear_out, front_twist, rear_twist, front_demand, rear_demand, valves, step, work
+):
     """Advance both axles by `step` s and return their bar torques (front, rear) in Nm over that step.
 
     `p`, `now`, `later` are records with a `front` and a `rear` of Axle and AxleState, the outs are AxleOutput records.
     Twists are (now rad, rate now rad/s, held over the step rad); a demand is (command, gain, stroke_bias), as in
-    `reduced_circuit.advance`.
+    `reduced_circuit.advance`; `valves` are the commanded openings (bypass, fail-safe) of front and rear; `work` is a
+    WORK record of the detailed circuit.
     """
     if p.front.kind == PUMP_CONTROLLED and p.rear.kind == PUMP_CONTROLLED:
         front_torque, rear_torque = advance_both(
@@ -105,60 +154,92 @@ def stabilize(p, now, later, front_out, rear_out, front_twist, rear_twist, front
             step, int(max(p.front.substeps, p.rear.substeps)),
         )  # fmt: skip
     else:
-        front_torque = _alone(p.front, now.front, later.front, front_twist[2], front_demand, step)
-        rear_torque = _alone(p.rear, now.rear, later.rear, rear_twist[2], rear_demand, step)
-    _finish(p.front, now.front, later.front, front_out, front_twist, front_demand, front_torque, step)
-    _finish(p.rear, now.rear, later.rear, rear_out, rear_twist, rear_demand, rear_torque, step)
+        front_torque = _alone(p.front, now.front, later.front, front_twist[2], front_demand, valves[0], step, work)
+        rear_torque = _alone(p.rear, now.rear, later.rear, rear_twist[2], rear_demand, valves[1], step, work)
+    _finish(p.front, now.front, later.front, front_out, front_twist, front_demand, front_torque, step, work)
+    _finish(p.rear, now.rear, later.rear, rear_out, rear_twist, rear_demand, rear_torque, step, work)
     return front_torque, rear_torque
 
 
 @kernel
-def _alone(axle, now, later, twist, demand, step):
-    # bar torque of an axle whose neighbour is of another kind
+def _alone(axle, now, later, twist, demand, valves, step, work):
+    # bar torque of an axle that does not go in lockstep with its neighbour
+    command, gain, stroke_bias = demand
     if axle.kind == PUMP_CONTROLLED:
-        command, gain, stroke_bias = demand
         return advance(
             axle.circuit, axle.stiffness, now.circuit, later.circuit, now.energy, later.energy,
             command, gain, stroke_bias, twist, step, int(axle.substeps),
         )  # fmt: skip
+    if axle.kind == DETAILED:
+        return advance_detailed(axle, now, later, (command, gain, stroke_bias, twist), valves, step, work)
     return -axle.stiffness * twist
 
 
 @kernel
-def _finish(axle, now, later, out, twisted, demand, torque, step):
+def _finish(axle, now, later, out, twisted, demand, torque, step, work):
     # the work of the step before is known now; the outputs are those of the state now
     twist, twist_rate, _ = twisted
-    work = now.work + now.torque * step * 0.5 * (now.twist_rate + twist_rate)
-    out.energy.work = work
+    done = now.work + now.torque * step * 0.5 * (now.twist_rate + twist_rate)
+    out.energy.work = done
     out.bar.twist, out.bar.torque = twist, torque
-    if axle.kind == PUMP_CONTROLLED:
+    if axle.kind >= PUMP_CONTROLLED:
         out.bar.command = demand[0][0]
-        _report(axle, now, out, twist)
+        if axle.kind == PUMP_CONTROLLED:
+            _report_reduced(axle, now, out, twist)
+        else:
+            _report_detailed(axle, now, out, twist, work)
+        _report_circuit(axle.circuit, now, out)
     else:
         out.energy.bar = 0.5 * axle.stiffness * twist * twist
-    later.work, later.torque, later.twist_rate = work, torque, twist_rate
+    later.work, later.torque, later.twist_rate = done, torque, twist_rate
 
 
 @kernel
-def _report(axle, now, out, twist):
-    circuit = axle.circuit
-    state = now.circuit
-    _, powers = rates(circuit, axle.stiffness, read(state), 0.0, twist)
-    shaft, loss, squared_pressure, relief, friction, _, motor, _ = powers
+def _report_circuit(circuit, now, out):
+    state, energy = now.circuit, now.energy
     out.bar.angle = state.angle
     out.motor.pressure, out.motor.rate = state.pressure, state.rate
-    out.motor.output_power, out.motor.friction_power = motor, friction
-    out.motor.leakage_power = circuit.motor.leakage * squared_pressure
     out.pump.stroke = state.stroke
     out.pump.flow = circuit.pump.displacement * circuit.pump.speed * min(max(state.stroke, -1.0), 1.0)
-    out.pump.shaft_power, out.pump.loss_power = shaft, loss
-    out.pump.leakage_power = circuit.pump.leakage * squared_pressure
-    out.relief.power = relief
-    energy = now.energy
     out.energy.shaft, out.energy.recovered = energy.shaft, energy.recovered
     out.energy.pump_torque_loss, out.energy.pump_leakage = energy.pump_torque_loss, energy.pump_leakage
     out.energy.motor_leakage, out.energy.relief = energy.motor_leakage, energy.relief
     out.energy.friction, out.energy.capacitance = energy.friction, energy.capacitance
-    out.energy.charge, out.energy.motor, out.energy.throughput = energy.charge, energy.motor, energy.throughput
+    out.energy.line, out.energy.check, out.energy.bypass = energy.line, energy.check, energy.bypass
+    out.energy.tank_leakage = energy.tank_leakage
+    out.energy.charge, out.energy.charge_loss = energy.charge, energy.charge_loss
+    out.energy.motor, out.energy.throughput = energy.motor, energy.throughput
+
+
+@kernel
+def _report_reduced(axle, now, out, twist):
+    circuit, state = axle.circuit, now.circuit
+    _, powers = rates(circuit, axle.stiffness, read(state), 0.0, twist)
+    shaft, loss, pump_leakage, motor_leakage, relief, friction, _, motor, _ = powers
+    out.motor.output_power, out.motor.friction_power, out.motor.leakage_power = motor, friction, motor_leakage
+    out.pump.shaft_power, out.pump.loss_power, out.pump.leakage_power = shaft, loss, pump_leakage
+    out.relief.power, out.charge.power = relief, circuit.charge_power
     oil, torsion, inertia, stop = stored_energy(circuit, axle.stiffness, state, twist)
     out.energy.oil, out.energy.bar, out.energy.inertia = oil, torsion + stop, inertia
+
+
+@kernel
+def _report_detailed(axle, now, out, twist, work):
+    circuit, detail, x, power = axle.circuit, axle.detail, now.detail.plant, work.powers[0]
+    detailed_rates(axle, x, work.slopes[0], power, now.circuit.stroke, twist, (x[BYPASS], x[FAIL_SAFE]))
+    out.motor.output_power, out.motor.friction_power = power[MOTOR], power[FRICTION]
+    out.motor.leakage_power, out.pump.leakage_power = power[MOTOR_LEAKAGE], power[PUMP_LEAKAGE]
+    out.pump.shaft_power, out.pump.loss_power, out.relief.power = power[SHAFT], power[TORQUE_LOSS], power[RELIEF]
+    out.charge.power = power[CHARGE] + control_power(circuit, detail, control_state(now))
+    out.pump.control_pressure = now.detail.p_a - now.detail.p_b
+    if detail.plant != FULL_PLANT:
+        oil, torsion, inertia, stop = stored_energy(circuit, axle.stiffness, now.circuit, twist)
+        out.energy.oil, out.energy.bar, out.energy.inertia = oil, torsion + stop, inertia
+        return
+    lumps = int(detail.pipe.lumps)
+    out.motor.pressure_a, out.motor.pressure_b = x[A + lumps], x[B + lumps]
+    out.pump.pressure_a, out.pump.pressure_b = x[A], x[B]
+    out.charge.pressure, out.valve.bypass, out.valve.fail_safe = x[GALLERY], x[BYPASS], x[FAIL_SAFE]
+    oil, torsion, inertia, stop, moving = stored_energies(circuit, detail, axle.stiffness, x, twist)
+    out.energy.oil, out.energy.bar, out.energy.inertia = oil, torsion + stop, inertia
+    out.energy.oil_motion = moving

@@ -1,14 +1,21 @@
-"""Lines and chambers: the compressible oil between pump and motor (paper eqs. 30 to 32)."""
+"""Lines and chambers: the compressible oil between pump and motor (paper eqs. 30 to 32), as one capacitance."""
 
 from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.parameters import Choice, Parameters, Quantity
+
+SERIES, ONE_SIDED = 0.0, 1.0
 
 
 class Line(Parameters):
-    """One line a side, with the motor's chamber at its end."""
+    """One line a side, with the motor's chamber at its end.
+
+    In `series`, the oil that leaves one side enters the other and both pressures change: C_0 = V_0/2K. `one_sided`, the
+    low pressure is held constant, as by a charge supply, and the high-pressure side alone counts: C_0 = V_0/K.
+    """
 
     volume: Quantity("m^3", gt=0)  # V_L, one line
-    capacitance: Quantity("m^3/Pa", gt=0)  # C_0, of both sides in series with the motor in its middle
+    capacitance: Quantity("m^3/Pa", gt=0)  # C_0, of `sides`, with the motor in its middle
+    sides: Choice("series", "one_sided") = SERIES
 
 
 @kernel
@@ -18,14 +25,30 @@ def middle_volume(line, motor) -> float:
 
 
 @kernel
-def capacitance(line, motor, angle: float) -> float:
-    """Series capacitance (m^3/Pa) of both sides at a motor angle: eq. 32 with the minus sign that its algebra gives."""
+def capacitance(line, motor, angle: float, pressure: float) -> float:
+    """Capacitance (m^3/Pa) at a motor angle: of both sides in series, eq. 32 with the minus sign that its algebra
+    gives; one-sided, of the side that the sign of `pressure` (Pa, the difference) makes the high one.
+    """
     share = motor.displacement / middle_volume(line, motor) * angle
+    if line.sides == ONE_SIDED:
+        return line.capacitance * (1.0 + _high_side(pressure) * share)
     return line.capacitance * (1.0 - share * share)
 
 
 @kernel
-def capacitance_slope(line, motor, angle: float) -> float:
+def capacitance_slope(line, motor, angle: float, pressure: float) -> float:
     """Derivative of `capacitance` by the angle (m^3/Pa/rad)."""
     share = motor.displacement / middle_volume(line, motor)
+    if line.sides == ONE_SIDED:
+        return line.capacitance * _high_side(pressure) * share
     return -2.0 * line.capacitance * share * share * angle
+
+
+@kernel
+def _high_side(pressure: float) -> float:
+    # 1 for side A, -1 for side B; neither at zero, so that a mirrored state has the same capacitance to the last bit
+    if pressure > 0.0:
+        return 1.0
+    if pressure < 0.0:
+        return -1.0
+    return 0.0

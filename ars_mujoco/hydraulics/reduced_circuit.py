@@ -14,8 +14,11 @@ Constants divide before they multiply (1 / inertia * torque), so that a division
 
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.swash_plate_loop import SwashPlateLoop, valve_command
+from ars_mujoco.hydraulics.control_cylinder import ControlCylinder
 from ars_mujoco.hydraulics.line import Line, capacitance, capacitance_slope
-from ars_mujoco.hydraulics.pump import Pump, ideal_flow, torque_loss
+from ars_mujoco.hydraulics.metering_edge import MeteringEdge
+from ars_mujoco.hydraulics.oil import Oil
+from ars_mujoco.hydraulics.pump import Pump, flow_loss, ideal_flow, torque_loss
 from ars_mujoco.hydraulics.relief_valve import ReliefValve, relief_flow
 from ars_mujoco.hydraulics.servo_valve import ServoValve, spool_acceleration
 from ars_mujoco.hydraulics.swash_plate import SwashPlate, stroke_rate
@@ -24,19 +27,27 @@ from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, Quantity
 from ars_mujoco.saturation import saturate
 
-NOTHING = (0.0,) * 10
+NOTHING = (0.0,) * 11
 
 
-class ReducedCircuit(Parameters):
-    """Components of one axle's circuit."""
+class Circuit(Parameters):
+    """Components that one axle's circuit has at every stage of simplification."""
 
     servo_valve: ServoValve
     swash_plate: SwashPlate
     swash_plate_loop: SwashPlateLoop
     pump: Pump
-    line: Line
     relief_valve: ReliefValve
     motor: VaneMotor
+    oil: Oil | None = None  # these three where pump control is more than third order
+    metering_edge: MeteringEdge | None = None
+    control_cylinder: ControlCylinder | None = None
+
+
+class ReducedCircuit(Circuit):
+    """Components of one axle's reduced circuit."""
+
+    line: Line
     charge_power: Quantity("W", ge=0)  # constant drawn by charge and control supply, all of it throttled to heat
 
 
@@ -57,12 +68,17 @@ class CircuitEnergy(Parameters):
     shaft: Signal("J", "work of the pump shaft, less what came back")
     recovered: Signal("J", "work given back to the shaft, as a positive number")
     pump_torque_loss: Signal("J", "lost to the pump's torque loss")
-    pump_leakage: Signal("J", "lost to leakage in the pump")
+    pump_leakage: Signal("J", "lost to leakage in the pump, its flow loss")
     motor_leakage: Signal("J", "lost to leakage in the motor")
     relief: Signal("J", "lost over the relief valve")
     friction: Signal("J", "lost to friction in the motor")
     capacitance: Signal("J", "taken by the oil's capacitance as it varies with the angle")
-    charge: Signal("J", "drawn by charge and control supply, all of it lost")
+    line: Signal("J", "lost to the flow through the lines and the fail-safe valve")
+    check: Signal("J", "lost over the check valves")
+    bypass: Signal("J", "lost over the bypass valve")
+    tank_leakage: Signal("J", "lost to leakage to the tank")
+    charge: Signal("J", "drawn by charge and control supply")
+    charge_loss: Signal("J", "of that, what never reaches the circuit")
     motor: Signal("J", "work of the motor on the bar")
     throughput: Signal("J", "integral of |shaft| + |motor| power")
 
@@ -72,22 +88,32 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     """Derivatives of the six states and the powers behind the energies, as two tuples.
 
     The states are (spool, spool_rate, stroke, pressure, angle, rate); the equations are those of the verification set
-    (paper eqs. 18 to 20, 24 to 29). The powers are (W) shaft, pump torque loss, squared pressure (Pa^2, for the
-    leakages), relief, friction, capacitance, motor, and the bar torque (Nm).
+    (paper eqs. 18 to 20, 24 to 29). The powers are (W) shaft, pump torque loss, pump leakage, motor leakage, relief,
+    friction, capacitance, motor, and the bar torque (Nm).
     """
     spool, spool_rate, stroke, pressure, angle, rate = state
-    pump, motor = circuit.pump, circuit.motor
     command = valve_command(circuit.swash_plate_loop, circuit.swash_plate, stroke_command, stroke)
+    plant, powers = plant_rates(circuit, bar_stiffness, stroke, pressure, angle, rate, twist)
+    control = (
+        spool_rate,
+        spool_acceleration(circuit.servo_valve, spool, spool_rate, command),
+        stroke_rate(circuit.swash_plate, spool),
+    )
+    return control + plant, powers
+
+
+@kernel
+def plant_rates(circuit, bar_stiffness: float, stroke: float, pressure: float, angle: float, rate: float, twist: float):
+    """Derivatives of (pressure, angle, rate) at a pump stroke, and the powers of `rates` (eqs. 24 to 29)."""
+    pump, motor = circuit.pump, circuit.motor
     flow = ideal_flow(pump, stroke)
     relief = relief_flow(circuit.relief_valve, pressure)
     friction = friction_torque(motor, rate)
     bar_torque = bar_stiffness * (angle - twist)
-    displaced, leakage = motor.displacement * rate, (pump.leakage + motor.leakage) * pressure
+    pump_leakage, motor_leakage = flow_loss(pump, stroke, pressure), motor.leakage * pressure
     derivatives = (
-        spool_rate,
-        spool_acceleration(circuit.servo_valve, spool, spool_rate, command),
-        stroke_rate(circuit.swash_plate, spool),
-        (flow - leakage - relief - displaced) / capacitance(circuit.line, motor, angle),
+        (flow - (pump_leakage + motor_leakage) - relief - motor.displacement * rate)
+        / capacitance(circuit.line, motor, angle, pressure),
         rate,
         1.0 / motor.inertia * (motor.displacement * pressure - bar_torque - stop_torque(motor, angle) - friction),
     )
@@ -95,10 +121,11 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     powers = (
         flow * pressure + loss,
         loss,
-        pressure * pressure,
+        pump_leakage * pressure,
+        motor_leakage * pressure,
         relief * pressure,
         friction * rate,
-        -0.5 * capacitance_slope(circuit.line, motor, angle) * rate * pressure * pressure,
+        -0.5 * capacitance_slope(circuit.line, motor, angle, pressure) * rate * pressure * pressure,
         bar_torque * rate,
         bar_torque,
     )
@@ -170,7 +197,7 @@ def stored_energy(circuit, bar_stiffness: float, state, twist: float):
     """Energy (J) now stored in (oil, bar torsion, motor inertia, mechanical stop)."""
     beyond = max(abs(state.angle) - circuit.motor.stop_angle, 0.0)
     return (
-        0.5 * capacitance(circuit.line, circuit.motor, state.angle) * state.pressure**2,
+        0.5 * capacitance(circuit.line, circuit.motor, state.angle, state.pressure) * state.pressure**2,
         0.5 * bar_stiffness * (state.angle - twist) ** 2,
         0.5 * circuit.motor.inertia * state.rate**2,
         0.5 * circuit.motor.stop_stiffness * beyond**2,
@@ -212,7 +239,7 @@ def _runge_kutta(state, k1, k2, k3, k4, h):
 @kernel
 def _accumulate(sums, p1, p2, p3, p4):
     # the powers of `rates` with the weights of the states, then recovered power and throughput, which need |.|
-    shaft, motor = _mean(p1[0], p2[0], p3[0], p4[0]), _mean(p1[6], p2[6], p3[6], p4[6])
+    shaft, motor = _mean(p1[0], p2[0], p3[0], p4[0]), _mean(p1[7], p2[7], p3[7], p4[7])
     return (
         sums[0] + shaft,
         sums[1] + _mean(p1[1], p2[1], p3[1], p4[1]),
@@ -220,10 +247,11 @@ def _accumulate(sums, p1, p2, p3, p4):
         sums[3] + _mean(p1[3], p2[3], p3[3], p4[3]),
         sums[4] + _mean(p1[4], p2[4], p3[4], p4[4]),
         sums[5] + _mean(p1[5], p2[5], p3[5], p4[5]),
-        sums[6] + motor,
-        sums[7] + _mean(p1[7], p2[7], p3[7], p4[7]),
-        sums[8] + max(-shaft, 0.0),
-        sums[9] + abs(shaft) + abs(motor),
+        sums[6] + _mean(p1[6], p2[6], p3[6], p4[6]),
+        sums[7] + motor,
+        sums[8] + _mean(p1[8], p2[8], p3[8], p4[8]),
+        sums[9] + max(-shaft, 0.0),
+        sums[10] + abs(shaft) + abs(motor),
     )
 
 
@@ -237,16 +265,17 @@ def _write(circuit, state, sums, later, energy_now, energy_later, step, count):
     # the new state and energies into their records; returns the mean bar torque
     later.spool, later.spool_rate, later.stroke, later.pressure, later.angle, later.rate = state
     h = step / count
-    shaft, loss, squared_pressure, relief, friction, compliance, motor, torque, recovered, throughput = sums
+    shaft, loss, pump_leakage, motor_leakage, relief, friction, compliance, motor, torque, recovered, throughput = sums
     energy_later.shaft = energy_now.shaft + h * shaft
     energy_later.recovered = energy_now.recovered + h * recovered
     energy_later.pump_torque_loss = energy_now.pump_torque_loss + h * loss
-    energy_later.pump_leakage = energy_now.pump_leakage + h * circuit.pump.leakage * squared_pressure
-    energy_later.motor_leakage = energy_now.motor_leakage + h * circuit.motor.leakage * squared_pressure
+    energy_later.pump_leakage = energy_now.pump_leakage + h * pump_leakage
+    energy_later.motor_leakage = energy_now.motor_leakage + h * motor_leakage
     energy_later.relief = energy_now.relief + h * relief
     energy_later.friction = energy_now.friction + h * friction
     energy_later.capacitance = energy_now.capacitance + h * compliance
     energy_later.charge = energy_now.charge + step * circuit.charge_power
+    energy_later.charge_loss = energy_now.charge_loss + step * circuit.charge_power
     energy_later.motor = energy_now.motor + h * motor
     energy_later.throughput = energy_now.throughput + h * throughput
     return torque / count

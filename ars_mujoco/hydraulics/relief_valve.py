@@ -1,4 +1,4 @@
-"""Relief valve: limits the pressure difference in both directions."""
+"""Relief valve: limits a pressure difference, of both directions or of one line."""
 
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, Quantity
@@ -19,3 +19,9 @@ def relief_flow(valve, pressure: float) -> float:
     if pressure < -valve.pressure:
         return valve.conductance * (pressure + valve.pressure)
     return 0.0
+
+
+@kernel
+def one_way_relief(valve, excess: float) -> float:
+    """Flow (m^3/s, never negative) through one valve of the pair, `excess` (Pa) being the pressure over its outlet."""
+    return valve.conductance * max(excess - valve.pressure, 0.0)

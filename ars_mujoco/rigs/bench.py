@@ -7,6 +7,7 @@ import numpy as np
 from ars_mujoco.actuators.axle import AxleOutput
 from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
+from ars_mujoco.hydraulics.detailed_circuit import WORK
 from ars_mujoco.kernel import NativeCallback, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import stabilizers
@@ -41,7 +42,7 @@ WORLD = world_dtype(
     PARAMETERS,
     np.dtype([("stabilizers", stabilizers.STATE)]),
     record_dtype(Output),
-    np.dtype([("rear", record_dtype(AxleOutput))]),
+    np.dtype([("rear", record_dtype(AxleOutput)), ("work", WORK)]),
 )
 
 
@@ -59,6 +60,7 @@ def step(world, mj) -> None:
     front, _ = stabilize_both(
         p.stabilizers, world.now.stabilizers, world.later.stabilizers, world.out.front, world.scratch.rear,
         mj.time, h, parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0, 0.0),
+        world.scratch.work,
     )  # fmt: skip
     check_circuits(world, p.stabilizers, world.later.stabilizers, mj.time)
     check_finite(world, front, mj.time)

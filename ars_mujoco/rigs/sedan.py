@@ -15,6 +15,7 @@ from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.driver import Driver, DriverOutput, DriverState, drive, preview
+from ars_mujoco.hydraulics.detailed_circuit import WORK
 from ars_mujoco.kernel import NativeCallback, entry, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import reference, stabilizers
@@ -117,7 +118,7 @@ STATE = np.dtype(
         ("running", "f8"),  # 1 once there is such a velocity
     ]
 )
-WORLD = world_dtype(PARAMETERS, STATE, record_dtype(Output), np.dtype([("sensors", SENSORS)]))
+WORLD = world_dtype(PARAMETERS, STATE, record_dtype(Output), np.dtype([("sensors", SENSORS), ("work", WORK)]))
 
 
 def addresses(model: mujoco.MjModel) -> dict:
@@ -200,6 +201,7 @@ def act(world, mj) -> None:
     front, rear = stabilize_both(
         p.stabilizers, now.stabilizers, later.stabilizers, out.front, out.rear, mj.time, h,
         (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
+        world.scratch.work,
     )  # fmt: skip
     apply_bar_torques(at.bars, mj, front, rear)
     check_circuits(world, p.stabilizers, later.stabilizers, mj.time)

@@ -3,24 +3,29 @@
 import mujoco
 import numpy as np
 
-from ars_mujoco.actuators.axle import PUMP_CONTROLLED, Axle, AxleState, stabilize
+from ars_mujoco.actuators.axle import DETAILED, PUMP_CONTROLLED, Axle, AxleState, stabilize
 from ars_mujoco.control.bar_angle_loop import BarAngleLoop, limited, outer_gain
 from ars_mujoco.control.control_unit import DELAY_LINE, ControlUnit, delayed, samples_now
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import record_dtype
 from ars_mujoco.saturation import saturate
+from ars_mujoco.signal import SIGNAL, value
 from ars_mujoco.world import BURST, stop
 
 BURST_PRESSURE = 1e8  # Pa; no relief valve lets a real circuit get near 1000 bar
 BARS = ("front_bar_left", "front_bar_right", "rear_bar_left", "rear_bar_right")
 BAR_ADDRESSES = np.dtype([("position", "f8", 4), ("velocity", "f8", 4)])
 
+# commanded openings over time, 0 shut and 1 open
+VALVES = np.dtype([("bypass", SIGNAL), ("fail_safe", SIGNAL)])
 PARAMETERS = np.dtype(
     [
         ("front", record_dtype(Axle)),
         ("rear", record_dtype(Axle)),
         ("loop", record_dtype(BarAngleLoop)),
         ("unit", record_dtype(ControlUnit)),
+        ("front_valves", VALVES),
+        ("rear_valves", VALVES),
     ]
 )
 STATE = np.dtype(
@@ -36,11 +41,11 @@ STATE = np.dtype(
 
 @kernel
 def stabilize_both(
-    p, now, later, front_out, rear_out, time, step, front_command, rear_command, front_twist, rear_twist
+    p, now, later, front_out, rear_out, time, step, front_command, rear_command, front_twist, rear_twist, work
 ):
     """Advance both axles by `step` s; return their bar torques (front, rear) in Nm.
 
-    Commands are (c0, c1, c2) over the step as in `reduced_circuit.advance`; twists as in `axle.stabilize`.
+    Commands are (c0, c1, c2) over the step as in `reduced_circuit.advance`; twists and work as in `axle.stabilize`.
     A continuous unit delays the commanded angle and leaves the outer loop to the substeps; a sampling unit computes the
     outer loop itself and delays the stroke.
     """
@@ -61,13 +66,22 @@ def stabilize_both(
         front_gain = rear_gain = 0.0
     return stabilize(
         p, now, later, front_out, rear_out, front_twist, rear_twist,
-        (front_command, front_gain, front_bias), (rear_command, rear_gain, rear_bias), step,
+        (front_command, front_gain, front_bias), (rear_command, rear_gain, rear_bias),
+        (_openings(p.front, p.front_valves, time), _openings(p.rear, p.rear_valves, time)), step, work,
     )  # fmt: skip
 
 
 @kernel
 def _gain(axle, loop):
-    return outer_gain(loop, axle.circuit.pump.speed) if axle.kind == PUMP_CONTROLLED else 0.0
+    return outer_gain(loop, axle.circuit.pump.speed) if axle.kind >= PUMP_CONTROLLED else 0.0
+
+
+@kernel
+def _openings(axle, valves, time):
+    # commanded at `time`; only a detailed circuit has valves to command
+    if axle.kind == DETAILED:
+        return value(valves.bypass, time), value(valves.fail_safe, time)
+    return 0.0, 1.0
 
 
 @kernel
@@ -120,4 +134,4 @@ def check_circuits(world, stabilizers, state, time: float) -> None:
 @kernel
 def _is_beyond(axle, circuit) -> bool:
     too_far = abs(circuit.angle) > 2.0 * axle.circuit.motor.stop_angle
-    return axle.kind == PUMP_CONTROLLED and (too_far or abs(circuit.pressure) > BURST_PRESSURE)
+    return axle.kind >= PUMP_CONTROLLED and (too_far or abs(circuit.pressure) > BURST_PRESSURE)

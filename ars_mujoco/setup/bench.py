@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ars_mujoco.actuators.actuator import Actuator, PumpControlled, fill_axle
+from ars_mujoco.actuators.actuator import Actuator, PumpControlled
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.cycle import Cycle
 from ars_mujoco.errors import InputError
@@ -18,8 +18,7 @@ def set_up(start: Start, cycle: Cycle, actuator: Actuator, controller: Controlle
     if not isinstance(actuator, PumpControlled):
         raise InputError(f"actuator '{actuator.kind}' has nothing to command on the bench; allowed: pump_controlled")
     parameters, manoeuvre = start.parameters, cycle.manoeuvre
-    stabilizers = parameters.stabilizers
-    fill_axle(stabilizers.front, actuator, "front", vehicle.stiffness, 0.0, start.step)
+    start.fill_stabilizer("front", actuator, vehicle.stiffness, 0.0)
     parameters.command, parameters.ends = manoeuvre.command.signal(), manoeuvre.ends.signal()
     parameters.arm, parameters.ends_height = vehicle.arm, vehicle.height - vehicle.link_length
     if np.abs(parameters.ends.values).max() >= vehicle.arm:

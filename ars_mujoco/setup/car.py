@@ -3,10 +3,11 @@
 import mujoco
 import numpy as np
 
-from ars_mujoco.actuators.actuator import Actuator, PumpControlled, fill_axle
+from ars_mujoco.actuators.actuator import Actuator, PumpControlled
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.errors import ArsError, InputError
 from ars_mujoco.parameters import fill
+from ars_mujoco.setup.start import Start
 from ars_mujoco.vehicle.reference_map import reference_map
 from ars_mujoco.vehicle.roll_plane import RollPlane
 from ars_mujoco.vehicle.sedan import GRAVITY, Sedan
@@ -21,10 +22,10 @@ def fill_addresses(record, values: dict) -> None:
             record[name] = value
 
 
-def fill_stabilizers(record, actuator: Actuator, front_bar, rear_bar, step: float) -> None:
+def fill_stabilizers(start: Start, actuator: Actuator, front_bar, rear_bar) -> None:
     """Write both axles of `actuator`; the bars give their stiffnesses."""
     for axle, bar in (("front", front_bar), ("rear", rear_bar)):
-        fill_axle(record[axle], actuator, axle, bar.stiffness, bar.passive_stiffness, step)
+        start.fill_stabilizer(axle, actuator, bar.stiffness, bar.passive_stiffness)
 
 
 def fill_reference(

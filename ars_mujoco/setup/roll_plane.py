@@ -13,7 +13,7 @@ def set_up(start: Start, cycle: Cycle, actuator: Actuator, controller: Controlle
     """The roll plane's simulation."""
     parameters, model = start.parameters, start.simulation.model
     fill_addresses(parameters.at, start.rig.addresses(model))
-    fill_stabilizers(parameters.stabilizers, actuator, vehicle.front, vehicle.rear, start.step)
+    fill_stabilizers(start, actuator, vehicle.front, vehicle.rear)
     fill_reference(parameters.reference, model, actuator, controller, vehicle)
     parameters.acceleration, parameters.mass = cycle.manoeuvre.acceleration.signal(), vehicle.mass
     return start.stored()

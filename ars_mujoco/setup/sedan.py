@@ -25,7 +25,7 @@ def set_up(start: Start, cycle: Cycle, actuator: Actuator, controller: Controlle
     """The sedan's simulation."""
     parameters, model = start.parameters, start.simulation.model
     fill_addresses(parameters.at, start.rig.addresses(model))
-    fill_stabilizers(parameters.stabilizers, actuator, vehicle.front.bar, vehicle.rear.bar, start.step)
+    fill_stabilizers(start, actuator, vehicle.front.bar, vehicle.rear.bar)
     fill_reference(parameters.reference, model, actuator, controller, vehicle)
     fill(parameters.front_tire, vehicle.front.tire)
     fill(parameters.rear_tire, vehicle.rear.tire)

@@ -6,9 +6,11 @@ from types import ModuleType
 import mujoco
 import numpy as np
 
+from ars_mujoco.actuators.actuator import Actuator, fill_axle, start_axle
 from ars_mujoco.cycle import Cycle
 from ars_mujoco.errors import InputError
 from ars_mujoco.law import Law
+from ars_mujoco.signal import signal
 from ars_mujoco.simulation import Simulation
 from ars_mujoco.world import NUMERIC, new_world
 
@@ -36,6 +38,14 @@ class Start:
         except ValueError as error:
             raise InputError(f"vehicle: MuJoCo refuses its model: {'; '.join(str(error).splitlines())}") from None
         return Simulation(self.rig, model, self.cycle.duration, self.cycle.title, self.law)
+
+    def fill_stabilizer(self, axle: str, actuator: Actuator, stiffness: float, passive_stiffness: float) -> None:
+        """Write an axle ("front" or "rear") of `actuator` as `actuator.fill_axle` does, at rest and charged."""
+        stabilizers = self.parameters.stabilizers
+        fill_axle(stabilizers[axle], actuator, axle, stiffness, passive_stiffness, self.step)
+        start_axle(stabilizers[axle], self.world[0].now.stabilizers[axle])
+        valves = stabilizers[f"{axle}_valves"]
+        valves.bypass, valves.fail_safe = signal([0.0], [0.0]), signal([0.0], [1.0])
 
     def stored(self) -> Simulation:
         """The simulation, with the world as it is now written into its model."""

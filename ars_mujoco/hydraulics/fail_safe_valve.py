@@ -1,0 +1,33 @@
+"""Fail-safe valve: stands in a line before the motor and, shut, holds the oil in it."""
+
+import math
+
+from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import Parameters, Quantity
+
+SHUT = 0.05  # opening under which no oil passes
+LAMINAR_SHARE = 0.05  # of the rated flow, below which its orifice flows laminar
+
+
+class FailSafeValve(Parameters):
+    """A switching valve in the line; `valve_opening` moves it."""
+
+    flow: Quantity("m^3/s", gt=0)  # rated, fully open
+    pressure: Quantity("Pa", gt=0)  # drop at the rated flow
+    time: Quantity("s", gt=0)  # of a full stroke
+
+
+@kernel
+def is_shut(valve, opening: float) -> bool:
+    """Whether an opening (0 to 1) lets no oil pass."""
+    return opening < SHUT
+
+
+@kernel
+def fail_safe_drop(valve, opening: float, flow: float) -> float:
+    """Pressure (Pa) that a flow (m^3/s) loses through an opening that is not shut, with the sign of the flow: in
+    proportion to its square, and to the flow itself where that is small, so that a slope is left at zero.
+    """
+    relative = flow / (valve.flow * opening)
+    laminar = LAMINAR_SHARE / opening
+    return valve.pressure * relative * math.sqrt(relative * relative + laminar * laminar)

@@ -1,0 +1,32 @@
+"""Temperature: what a warmer, thinner oil changes in a circuit whose values are stated at 50 degC."""
+
+from ars_mujoco.hydraulics.oil import viscosity_ratio
+from ars_mujoco.hydraulics.reduced_circuit import Circuit
+
+# in proportion to the viscosity, and in proportion to its inverse (laminar gaps)
+THICKER = {"motor": ("viscous_friction",), "control_cylinder": ("viscous_friction",)}
+THINNER = {
+    "pump": ("leakage",),
+    "motor": ("leakage",),
+    "control_cylinder": ("internal_leakage", "external_leakage"),
+    "metering_edge": ("leakage",),
+}
+
+
+def at_temperature(circuit: Circuit) -> Circuit:
+    """`circuit` with its viscous friction and laminar leakages at its oil's temperature; as it is where none is stated.
+
+    Lines take the viscosity itself. A pump's measured loss polynomials hold at the temperature they were measured at.
+    """
+    if circuit.oil is None:
+        return circuit
+    ratio = viscosity_ratio(circuit.oil)
+    changed = {}
+    for names, factor in ((THICKER, ratio), (THINNER, 1.0 / ratio)):
+        for block, keys in names.items():
+            part = changed.get(block, getattr(circuit, block))
+            if part is not None:
+                changed[block] = part.model_copy(update={key: factor * getattr(part, key) for key in keys})
+    if "tank_leakage" in type(circuit).model_fields:
+        changed["tank_leakage"] = circuit.tank_leakage / ratio
+    return circuit.model_copy(update=changed)

@@ -1,0 +1,12 @@
+"""The opening of a switching valve: it follows its command at the speed of its stroke."""
+
+from ars_mujoco.kernel import kernel
+from ars_mujoco.saturation import saturate
+
+CLOSE = 0.05  # of a stroke: nearer to its command the valve slows down, so that its rate has no step
+
+
+@kernel
+def opening_rate(valve, opening: float, command: float) -> float:
+    """Rate (1/s) of an opening (0 shut to 1 open) towards its command; a full stroke takes `valve.time` (s)."""
+    return saturate((command - opening) / CLOSE, 1.0) / valve.time
