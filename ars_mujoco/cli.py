@@ -181,11 +181,8 @@ def analyze(
     as_json: Json = False,
 ) -> None:
     """Linear theory of the front actuator on the bench: poles, margins, responses and the gain's stable region."""
-    try:
+    with _extra("analyze"):
         from ars_mujoco.analysis import analyze as analysis
-    except ModuleNotFoundError as missing:
-        extra = "pip install 'ars_mujoco[analysis]'"
-        raise InputError(f"ars analyze needs the package '{missing.name}'; it comes with {extra}") from None
     inputs = analysis.read_analyzed(actuator, controller, settings or [])
     folder = out or RUNS / "analyze"
     with _progress() as progress:
@@ -196,6 +193,40 @@ def analyze(
     rows = [{key: row[key] for key in ("quantity", "value", "paper")} for row in analysis.headlines(results)]
     _print_table(f"{inputs.actuator.name} on the bench, {inputs.controller.name}", rows)
     print(f"Figures and numbers: {folder}")
+
+
+@app.command()
+def reproduce(
+    out: Annotated[Path | None, typer.Option(help="Folder of the results; else runs/reproduce.")] = None,
+    as_json: Json = False,
+) -> None:
+    """The paper's claims, each held against the running code: one page with figures, and the numbers."""
+    with _extra("reproduce"):
+        from ars_mujoco.reproduce import reproduce as claims
+        from ars_mujoco.reproduce.evidence import Evidence
+    folder = out or RUNS / "reproduce"
+    with _progress() as progress:
+        numbers = claims.reproduce(Evidence(), folder, progress)
+    if as_json:
+        _print_json({"folder": str(folder), **{key: numbers[key] for key in numbers if key != "analyses"}})
+        return
+    for group in numbers["groups"]:
+        rows = [
+            {"claim": each["text"], "ours": each["told"], "verdict": " ".join(filter(None, each["verdict"].values()))}
+            for each in group["claims"]
+        ]
+        _print_table(group["title"], rows)
+    print(f"Page: {folder / claims.HTML}\nNumbers: {folder / claims.JSON}")
+
+
+@contextmanager
+def _extra(command: str) -> Iterator[None]:
+    """Where a package of the extra `analysis` is missing: an InputError that says what brings it."""
+    try:
+        yield
+    except ModuleNotFoundError as missing:
+        extra = "pip install 'ars_mujoco[analysis]'"
+        raise InputError(f"ars {command} needs the package '{missing.name}'; it comes with {extra}") from None
 
 
 def _study(cycle, actuators, vehicle, controller, settings, out, as_json) -> None:
@@ -307,4 +338,4 @@ def _print_table(title: str, rows: list[dict[str, str]]) -> None:
         table.add_column(column, overflow="fold")
     for row in rows:
         table.add_row(*map(str, row.values()))
-    Console(width=None if sys.stdout.isatty() else 240).print(table)
+    Console(width=None if sys.stdout.isatty() else 240, markup=False).print(table)

@@ -70,10 +70,11 @@ def loop_of(inputs: Inputs) -> Loop:
     actuator, controller = inputs.actuator.value, inputs.controller.value
     if not isinstance(actuator, PumpControlled):
         raise InputError(f"actuator '{actuator.kind}' has no loop to analyse; allowed: pump_controlled")
-    return Loop(_record(actuator.front), inputs.vehicle.value.stiffness, _record(controller.loop), controller.unit)
+    return Loop(record_of(actuator.front), inputs.vehicle.value.stiffness, record_of(controller.loop), controller.unit)
 
 
-def _record(parameters: Parameters) -> np.record:
+def record_of(parameters: Parameters) -> np.record:
+    """The record of `parameters` that kernels read."""
     record = np.zeros(1, record_dtype(type(parameters))).view(np.recarray)[0]
     fill(record, parameters)
     return record

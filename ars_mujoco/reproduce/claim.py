@@ -49,15 +49,22 @@ REPRODUCED, CONTRADICTS_ITSELF = Verdict(Kind.REPRODUCED), Verdict(Kind.CONTRADI
 
 @dataclass(frozen=True)
 class Number:
-    """A number of a claim: its `value`, or the (least, greatest) of a range, in `unit`."""
+    """A number of a claim: its `value` in `unit`, the (least, greatest) of a range, or None where there is none."""
 
     name: str
-    value: float | tuple[float, float]
+    value: float | tuple[float, float] | None
     unit: str = "1"
 
+    @property
+    def text(self) -> str:
+        """The value with its unit."""
+        if self.value is None:
+            return "none"
+        value = " to ".join(map(_digits, np.atleast_1d(self.value).tolist()))
+        return value if self.unit == "1" else f"{value} {self.unit}"
+
     def __str__(self) -> str:
-        value = " to ".join(f"{each:.4g}" for each in np.atleast_1d(self.value))
-        return f"{self.name} {value}{'' if self.unit == '1' else ' ' + self.unit}"
+        return f"{self.name} {self.text}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +80,7 @@ class Finding:
 
 @dataclass(frozen=True, kw_only=True)
 class Claim(Finding):
-    """A finding with what it is about: `id` is its anchor, `place` where in the paper it stands, `text` what it says."""
+    """A finding with what it is about: `id` is its anchor, `place` its place in the paper, `text` what it says."""
 
     id: str
     place: str
@@ -87,6 +94,7 @@ class Claim(Finding):
             "text": self.text,
             "paper": [_number(each) for each in self.paper],
             "ours": [_number(each) for each in self.ours],
+            "told": "; ".join(map(str, self.ours)),
             "verdict": {"kind": self.verdict.kind.value, "detail": self.verdict.detail},
             "why": self.why,
         }
@@ -142,6 +150,14 @@ def does_not_follow(source: str) -> Verdict:
 def holds_only(where: str) -> Verdict:
     """The verdict that a claim holds in part: only `where`."""
     return Verdict(Kind.HOLDS_ONLY, where)
+
+
+def _digits(value: float) -> str:
+    """Four digits; very small and very large values with an exponent."""
+    if value == 0.0 or 1e-3 <= abs(value) < 1e6:
+        return f"{value:.0f}" if abs(value) >= 1e4 else f"{value:.4g}"
+    mantissa, exponent = f"{value:.3e}".split("e")
+    return f"{float(mantissa):g}e{exponent}"
 
 
 def _number(number: Number) -> dict[str, Any]:

@@ -8,7 +8,9 @@ import numpy as np
 
 from ars_mujoco.analysis import frequency_response, hydraulic_poles, root_locus, stable_region, steady_state
 from ars_mujoco.analysis.analyze import read_analyzed
-from ars_mujoco.analysis.loop import Loop, loop_of
+from ars_mujoco.analysis.loop import Loop, loop_of, record_of
+from ars_mujoco.analysis.parameter_box import TABLE_2
+from ars_mujoco.hydraulics.oil import fluid
 from ars_mujoco.hydraulics.reduced_circuit import rates
 from ars_mujoco.inputs import Inputs, read_inputs
 from ars_mujoco.kernel import entry
@@ -16,13 +18,15 @@ from ars_mujoco.recording.recording import Recording
 from ars_mujoco.simulation import simulate
 from ars_mujoco.study import simulation_of
 
+FULL = "pump_controlled_full"  # the actuator with lines, oil and a pump control of their own
 S_CURVE, SMALL_STEP, LARGE_STEP = "bench_s_curve", "bench_step_1deg", "bench_step_10deg"
 
 
 class Evidence:
     """The paper's front actuator on its bench and in a car; `settings` change it, as `--set actuator.KEY=VALUE` does.
 
-    Symbols (SI): D, V_p n as `full_flow`, k, C, theta, r_v, c, V_L, phi_n, K_p.
+    Symbols (SI): D, V_p n as `full_flow`, k and the pump's share of it, C, theta, r_v, c, V_L, phi_n, K_p; records of
+    the control cylinder, its valve's edges, and of the full circuit's pipe and fluid.
     """
 
     def __init__(self, settings: Iterable[str] = ()):
@@ -39,6 +43,11 @@ class Evidence:
         self.k = float(pump.leakage + motor.leakage)
         self.C, self.V_L = float(line.capacitance), float(line.volume)
         self.c, self.K_p = self.loop.stiffness, self.loop.gain
+        self.pump_share, self.leakages = float(pump.leakage) / self.k, TABLE_2["leakage"]
+        self.cylinder, self.edge = circuit.control_cylinder, circuit.metering_edge
+        self.full_inputs = read_inputs(S_CURVE, FULL)
+        full = self.full_inputs.actuator.value.front
+        self.pipe, self.fluid = record_of(full.pipe), record_of(fluid(full.oil))
 
     def run(self, cycle: str, *settings: str, actuator: str | None = None) -> Recording:
         """The recording of a cycle, run once; with another `actuator` than its own, without the evidence's settings."""
@@ -49,9 +58,13 @@ class Evidence:
             self.runs[key] = inputs, simulate(simulation_of(inputs))
         return self.runs[key][1]
 
+    def inputs_of(self, cycle: str) -> Inputs:
+        """The inputs of a cycle as it was run without further settings."""
+        return self.runs[cycle, None][0]
+
     def record(self) -> list[dict[str, Any]]:
         """Names, hashes and settings of all that was analysed and run so far."""
-        used = [self.inputs, *(inputs for inputs, _ in self.runs.values())]
+        used = [self.inputs, self.full_inputs, *(inputs for inputs, _ in self.runs.values())]
         return [
             {part: {key: each[part][key] for key in ("name", "sha256", "overrides")} for part in each}
             for each in (inputs.record() for inputs in used)
