@@ -219,14 +219,38 @@ def reproduce(
     print(f"Page: {folder / claims.HTML}\nNumbers: {folder / claims.JSON}")
 
 
-@contextmanager
-def _extra(command: str) -> Iterator[None]:
-    """Where a package of the extra `analysis` is missing: an InputError that says what brings it."""
-    try:
-        yield
-    except ModuleNotFoundError as missing:
-        extra = "pip install 'ars_mujoco[analysis]'"
-        raise InputError(f"ars {command} needs the package '{missing.name}'; it comes with {extra}") from None
+@app.command("fit-losses")
+def fit_losses(
+    data: Annotated[
+        Path,
+        typer.Argument(
+            metavar="DATA.csv",
+            help="Measured points; the header names speed, pressure, displacement (or stroke), flow and torque with "
+            "units: 'speed (rpm),pressure (bar),...'.",
+        ),
+    ],
+    orders: Annotated[tuple[int, int, int], typer.Option(help="Of stroke, speed and pressure.", metavar="P Q R")],
+    displacement: Annotated[
+        str | None, typer.Option(help="Of the full stroke, such as '1.8 cm^3/rev'; else the largest measured.")
+    ] = None,
+    scale_to: Annotated[
+        str | None, typer.Option(help="Displacement of a similar pump that losses.yaml is to be for.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder of the results; else runs/fit_losses.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Fit a pump's flow and torque loss to measured points: a block for an actuator's file, numbers and a figure."""
+    with _extra("fit-losses"):
+        from ars_mujoco.analysis import fit_losses as fitting
+    folder = out or RUNS / fitting.NAME
+    result = fitting.fit_losses(data, orders, folder, displacement, scale_to)
+    if as_json:
+        _print_json({"folder": str(folder), **result})
+        return
+    _print_table(f"{data.name}: {result['points']} points", fitting.rows(result))
+    for remark in fitting.remarks(result):
+        print(remark)
+    print(f"For an actuator's file: {folder / 'losses.yaml'}")
 
 
 def _study(cycle, actuators, vehicle, controller, settings, out, as_json) -> None:
@@ -289,6 +313,16 @@ def _channels() -> list[dict[str, str]]:
                 row["rigs"] = f"{found[channel.name]['rigs']}, {rig}"
             found[channel.name] = row
     return list(found.values())
+
+
+@contextmanager
+def _extra(command: str) -> Iterator[None]:
+    """Say what to install where a command needs more than a plain installation brings."""
+    try:
+        yield
+    except ModuleNotFoundError as missing:
+        extra = "pip install 'ars_mujoco[analysis]'"
+        raise InputError(f"ars {command} needs the package '{missing.name}'; it comes with {extra}") from None
 
 
 @contextmanager

@@ -1,6 +1,5 @@
 """Cycle: a manoeuvre on a rig as a user writes it: what is driven, for how long, and what is expected of it."""
 
-from functools import cache
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -10,45 +9,17 @@ from pydantic import (
     PlainSerializer,
     PlainValidator,
     ValidationInfo,
-    create_model,
     field_validator,
 )
 
 from ars_mujoco import road
-from ars_mujoco.errors import InputError
+from ars_mujoco.excitation.excitation import ExcitationOf
 from ars_mujoco.expectation import Limit, limits
 from ars_mujoco.parameters import Parameters, Quantity
-from ars_mujoco.signal import signal
+from ars_mujoco.signal import KnotsOf, signal
 
 Rig = Literal["bench", "roll_plane", "sedan"]
 SHORTEST = 0.001  # s, one physics step
-
-
-class Knots(Parameters):
-    """A quantity over time: [time, value] pairs and how they are joined; held before the first and after the last."""
-
-    join: Literal["smooth", "linear", "step"] = "smooth"  # smooth is s^3 (10 - 15 s + 6 s^2)
-    knots: tuple[tuple[float, float], ...]
-
-    @field_validator("knots")
-    @classmethod
-    def _make_a_signal(cls, knots, info: ValidationInfo):
-        try:
-            signal(*zip(*knots, strict=True) if knots else ((), ()), info.data.get("join", "smooth"))
-        except InputError as error:
-            raise ValueError("; ".join(error.problems)) from None
-        return knots
-
-    def signal(self) -> np.record:
-        """The SIGNAL record of the knots, in s and SI."""
-        return signal(*zip(*self.knots, strict=True), self.join)
-
-
-@cache
-def KnotsOf(unit: str, **limits: float) -> type[Knots]:  # noqa: N802 (reads as a type)
-    """Knots whose values carry a unit of the dimension of `unit`; `limits` are those of a Quantity."""
-    knot = tuple[Quantity("s"), Quantity(unit, **limits)]
-    return create_model(f"KnotsOf({unit})", __base__=Knots, knots=(tuple[knot, ...], ...))
 
 
 class Follow(Parameters):
@@ -94,12 +65,23 @@ class Straight(Parameters):
 
 
 class BarCommand(Parameters):
-    """The bench: the bar's angle is commanded, its ends are held or moved."""
+    """The bench: the bar's ends are held or moved, its motor is commanded, held or free."""
 
     rig: ClassVar[Rig] = "bench"
     kind: Literal["bar_command"]
-    command: KnotsOf("rad")
-    ends: KnotsOf("m") = KnotsOf("m")(knots=[("0 s", "0 m")])  # left end above the right one, x_l - x_r
+    motor: Literal["commanded", "held", "free"] = "commanded"  # held is locked; free has its ports joined
+    command: ExcitationOf("rad") | None = Field(None, validate_default=True)
+    ends: ExcitationOf("m") = ExcitationOf("m")(knots=[("0 s", "0 m")])  # left end above the right one, x_l - x_r
+
+    @field_validator("command")
+    @classmethod
+    def _is_for_a_commanded_motor(cls, command, info: ValidationInfo):
+        motor = info.data.get("motor")
+        if motor == "commanded" and command is None:
+            raise ValueError("a commanded motor needs a command; without one, motor: held or free")
+        if motor in ("held", "free") and command is not None:
+            raise ValueError(f"a motor that is {motor} takes no command; allowed with motor: commanded")
+        return command
 
 
 class LateralForce(Parameters):

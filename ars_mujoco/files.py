@@ -45,6 +45,15 @@ class Input:
     overrides: tuple[str, ...] = ()
 
 
+class Written(str):
+    """A text as it stands in a file, and the `folder` at which a relative path in it starts."""
+
+    def __new__(cls, text: str, folder: Path):
+        written = super().__new__(cls, text)
+        written.folder = folder
+        return written
+
+
 @dataclass(frozen=True)
 class Override:
     """A value set on the command line: its `text` as written there, the `keys` it goes to, and the `value` as text."""
@@ -74,7 +83,7 @@ def read(
     path, overrides = library.find(kind, name_or_path, beside), tuple(overrides)
     try:
         content = path.read_bytes()
-        document = Document(_shown(path), content.decode())
+        document = Document(_shown(path), content.decode(), path.parent)
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{_shown(path)}: cannot be read: {error}") from None
     if document.tree == {}:
@@ -88,9 +97,9 @@ def read(
 class Document:
     """The tree of a YAML text: blocks, lists and texts, with the place each came from."""
 
-    def __init__(self, name: str, text: str):
-        """Parse `text`; `name` is what errors call it. Raises InputError where it is not YAML."""
-        self.name = name
+    def __init__(self, name: str, text: str, folder: Path = Path()):
+        """Parse `text`, a file's in `folder`; `name` is what errors call it. Raises InputError where it is not YAML."""
+        self.name, self.folder = name, folder
         self._problems: list[tuple[int | str, str]] = []  # (origin, message)
         self._origins: dict[Keys, int | str] = {(): 1}  # a line of the file, or an override
         try:
@@ -144,7 +153,7 @@ class Document:
             return self._block(node, keys)
         if isinstance(node, yaml.SequenceNode):
             return [self._value(each, (*keys, index)) for index, each in enumerate(node.value)]
-        return None if node.style is None and node.value in ("", "~", "null") else node.value
+        return None if node.style is None and node.value in ("", "~", "null") else Written(node.value, self.folder)
 
     def _block(self, node: yaml.MappingNode, keys: Keys) -> dict[str, Any]:
         block: dict[str, Any] = {}
@@ -186,7 +195,7 @@ class Document:
                 keys, block, value = [*keys, key], value, value[key]
         if error["type"] == "missing":
             keys, block, value = [*keys, last], value, None
-        if error["type"].startswith("union_tag"):
+        if error["type"].startswith("union_tag") and isinstance(value, dict):
             kind = error["ctx"]["discriminator"].strip("'")
             keys, block, value = [*keys, kind], value, value.get(kind)
         return tuple(keys), block, value
@@ -207,7 +216,7 @@ def _message(error: dict[str, Any], keys: Keys, value: Any, schema: type | None)
             unknown = f"{written}unknown{did_you_mean(value, valid)}" if written else "is empty"
             return unknown + _listed(valid)
         case "union_tag_not_found":
-            return "is missing"
+            return written + NEEDS["model_type"] if written else "is missing"
         case _ if value is None:
             return "is empty" + _listed_units(schema, keys[-1])
         case "too_long":

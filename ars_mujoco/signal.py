@@ -1,11 +1,15 @@
 """Signal: a quantity over time as a few knots, and how they are joined."""
 
 from collections.abc import Sequence
+from functools import cache
+from typing import Literal
 
 import numpy as np
+from pydantic import ValidationInfo, create_model, field_validator
 
 from ars_mujoco.errors import InputError
 from ars_mujoco.kernel import kernel
+from ars_mujoco.parameters import Parameters, Quantity
 
 KNOTS = 32
 JOINS = ("step", "linear", "smooth")
@@ -15,6 +19,33 @@ STEP, LINEAR, SMOOTH = range(3)
 SIGNAL = np.dtype(
     [("count", np.float64), ("join", np.float64), ("times", np.float64, KNOTS), ("values", np.float64, KNOTS)]
 )
+
+
+class Knots(Parameters):
+    """A quantity over time: [time, value] pairs and how they are joined; held before the first and after the last."""
+
+    join: Literal["smooth", "linear", "step"] = "smooth"  # smooth is s^3 (10 - 15 s + 6 s^2)
+    knots: tuple[tuple[float, float], ...]
+
+    @field_validator("knots")
+    @classmethod
+    def _make_a_signal(cls, knots, info: ValidationInfo):
+        try:
+            signal(*zip(*knots, strict=True) if knots else ((), ()), info.data.get("join", "smooth"))
+        except InputError as error:
+            raise ValueError("; ".join(error.problems)) from None
+        return knots
+
+    def signal(self) -> np.record:
+        """The SIGNAL record of the knots, in s and SI."""
+        return signal(*zip(*self.knots, strict=True), self.join)
+
+
+@cache
+def KnotsOf(unit: str, **limits: float) -> type[Knots]:  # noqa: N802 (reads as a type)
+    """Knots whose values carry a unit of the dimension of `unit`; `limits` are those of a Quantity."""
+    knot = tuple[Quantity("s"), Quantity(unit, **limits)]
+    return create_model(f"KnotsOf({unit})", __base__=Knots, knots=(tuple[knot, ...], ...))
 
 
 def signal(times: Sequence[float], values: Sequence[float], join: str = "smooth") -> np.record:

@@ -80,7 +80,7 @@ def to_si(value: object, unit: str, **limits: float) -> float:
     own_factor, own_dimension = measure(unit)
     if dimension != own_dimension:
         raise ValueError(f"wrong unit; allowed: {allowed(unit)}")
-    offset = zero(written or "1")
+    offset = zero(written or "1") - zero(unit)
     result = number * (factor / own_factor) + offset / own_factor
     for name, limit in limits.items():
         words, holds = LIMITS[name]

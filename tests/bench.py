@@ -7,6 +7,7 @@ from records import filled
 
 from ars_mujoco.actuators.actuator import Actuator
 from ars_mujoco.files import read
+from ars_mujoco.hydraulics.line import ONE_SIDED
 from ars_mujoco.hydraulics.reduced_circuit import CircuitState, rates
 from ars_mujoco.inputs import read_inputs
 from ars_mujoco.recording.recording import Recording
@@ -22,6 +23,14 @@ ANGLE = list(CircuitState.model_fields).index("angle")
 def circuit(axle: str = "front") -> np.record:
     """The record of the shipped ReducedCircuit of an axle."""
     return filled(getattr(read(Actuator, "pump_controlled", "actuator").value, axle))
+
+
+def one_sided() -> np.record:
+    """The shipped front circuit with the capacitance of its high-pressure side alone, twice that of both in series."""
+    parameters = circuit()
+    parameters.line.sides = ONE_SIDED
+    parameters.line.capacitance *= 2.0
+    return parameters
 
 
 def bench(cycle: str | Path, *settings: str) -> Simulation:

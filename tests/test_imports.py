@@ -5,13 +5,14 @@ import sys
 
 import pytest
 
-KERNELS = ("hydraulics.reduced_circuit", "control.bar_angle_loop", "control.accelerometer", "tires.tire", "driver")
+KERNELS = (
+    "hydraulics.reduced_circuit", "hydraulics.drive", "control.bar_angle_loop", "control.accelerometer", "tires.tire",
+    "driver",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("kernel", KERNELS)
 def test_a_kernel_imports_no_simulator_no_viewer_and_no_table(kernel):
-    program = (
-        f"import sys, ars_mujoco.{kernel}; print({{'mujoco', 'rerun', 'pyarrow', 'typer'}} & set(sys.modules))"
-    )
+    program = f"import sys, ars_mujoco.{kernel}; print({{'mujoco', 'rerun', 'pyarrow', 'typer'}} & set(sys.modules))"
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert result.stdout.strip() == "set()"

@@ -8,9 +8,13 @@ from ars_mujoco.errors import InputError
 
 def test_the_shipped_cycles_are_those_of_the_project():
     assert list(library.shipped("cycle")) == [
+        "bench_ends_free",
+        "bench_recorded",
         "bench_s_curve",
+        "bench_sine",
         "bench_step_10deg",
         "bench_step_1deg",
+        "bench_sweep",
         "roll_plane_step",
         "s_curve_120kmh",
         "single_wheel_bump",

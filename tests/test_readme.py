@@ -52,6 +52,18 @@ def test_the_program_of_the_readme_runs(capsys):
     assert 0.015 < roll < 0.03
 
 
+def test_the_inputs_of_the_bench_are_those_of_the_readme(tmp_path, monkeypatch):
+    from ars_mujoco.inputs import read_inputs
+
+    forms = dict(re.findall(r"^\| (\w+) \| `(\{.*?\})`", README, re.MULTILINE))
+    (header,) = re.findall(r"such as `(time.*?)`", README)
+    monkeypatch.chdir(tmp_path)
+    Path("travel.csv").write_text(f"{header}\n0,0\n1,20\n")
+    assert list(forms) == ["step", "sine", "sweep", "recorded"]
+    for form in forms.values():
+        read_inputs("bench_ends_free", settings=[f"manoeuvre.ends={form}"])
+
+
 def test_the_scripts_of_the_readme_exist_and_run_what_it_says():
     compare = "ars compare cycles/s_curve_120kmh.yaml --actuators passive,pump_controlled"
     assert compare in (ROOT / "scripts/run").read_text()

@@ -34,6 +34,8 @@ finite = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e12, max_v
         ("4e-13 m^3/s/Pa", "m^3/s/Pa", 4e-13),
         ("-.5 m", "m", -0.5),
         ("120km/h", "m/s", 100 / 3),
+        ("50 degC", "K", 323.15),
+        ("32 mm^2/s", "m^2/s", 32e-6),
         ("0.1 %", "1", 0.001),
         ("1e-3", "1", 0.001),
         (0.6, "1", 0.6),
@@ -65,6 +67,8 @@ def test_a_conversion_there_and_back_returns_the_number(number, unit, other):
         ("60 Hz", "rad/s", "wrong unit; allowed: rad/s, deg/s or rpm"),
         ("42 g", "kg", "wrong unit; allowed: kg"),
         ("5 m/s", "m", "wrong unit; allowed: m, cm, mm or km"),
+        ("50", "K", "needs a unit: K or degC"),
+        ("50 deg", "K", "wrong unit; allowed: K or degC"),
         ("3 deg", "1", "wrong unit; allowed: a bare number or %"),
         ("3", "m", "needs a unit: m, cm, mm or km"),
         (3, "m/s", "needs a unit: m/s or km/h"),
@@ -98,3 +102,9 @@ def test_a_refusal_says_what_is_allowed(written, unit, message):
 def test_a_limit_is_told_in_the_users_unit(written, limits, message):
     with pytest.raises(ValueError, match=message):
         to_si(written, "Pa", **limits)
+
+
+@pytest.mark.parametrize(("written", "limit"), [("200 degC", "150 degC"), ("500 K", "423.15 K")])
+def test_a_limit_of_a_temperature_is_told_on_the_users_scale(written, limit):
+    with pytest.raises(ValueError, match=f"must be at most {limit}"):
+        to_si(written, "K", le=423.15)

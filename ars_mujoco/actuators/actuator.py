@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from ars_mujoco.actuators.axle import DETAILED, NO_BAR, PUMP_CONTROLLED, TORSION_BAR
+from ars_mujoco.actuators.drive import Constant, Drive
 from ars_mujoco.hydraulics.detailed_circuit import FULL_PLANT, REDUCED_PLANT, start_detailed
 from ars_mujoco.hydraulics.full_circuit import FullCircuit
 from ars_mujoco.hydraulics.oil import fluid
@@ -44,6 +45,7 @@ class PumpControlled(Parameters):
     kind: Literal["pump_controlled"]
     circuit: Literal["reduced"] = "reduced"
     pump_control: Literal["third_order", "reduced", "full"] = "third_order"  # stage of simplification
+    drive: Drive = Constant(kind="constant")
     front: ReducedCircuit
     rear: ReducedCircuit
 

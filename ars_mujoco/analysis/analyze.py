@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ars_mujoco.analysis import (
+    compensators,
     frequency_response,
     hydraulic_poles,
     margins,
@@ -23,7 +24,15 @@ SCHEMA_VERSION = 1
 CYCLE = "bench_s_curve"  # names the bench and the controller that an analysis is of, unless others are given
 ANALYSES = {
     module.__name__.rpartition(".")[2]: module
-    for module in (hydraulic_poles, root_locus, margins, frequency_response, stable_region, steady_state)
+    for module in (
+        hydraulic_poles,
+        root_locus,
+        margins,
+        frequency_response,
+        stable_region,
+        steady_state,
+        compensators,
+    )
 }
 
 Progress = Callable[[str, float], None]  # (name of the analysis, share of it done)

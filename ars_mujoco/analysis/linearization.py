@@ -53,6 +53,13 @@ def actuator(loop: Loop, dry_friction: bool = False) -> control.StateSpace:
     return control.ss(A, B, C, 0.0, inputs="stroke_command", outputs=OUTPUTS, states=STATES)
 
 
+def pump_control(loop: Loop) -> control.StateSpace:
+    """The inner loop alone: from the stroke command (1) to the stroke (1)."""
+    A, B = state_matrices(loop)
+    own = [STATES.index(name) for name in ("spool", "spool_rate", "stroke")]
+    return control.ss(A[np.ix_(own, own)], B[own], [[0.0, 0.0, 1.0]], 0.0)
+
+
 def open_loop(loop: Loop, dry_friction: bool = False) -> control.StateSpace:
     """From the angle's error (rad) to the angle (rad): K_p times the actuator."""
     return loop.gain * actuator(loop, dry_friction)["angle", "stroke_command"]

@@ -4,6 +4,8 @@ from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Number, Parameters, Quantity
 from ars_mujoco.saturation import saturate
 
+LEAST_SPEED = 50.0  # rad/s, below any idle, under which a scheduled gain is no longer raised: an engine may be off
+
 
 class BarAngleLoop(Parameters):
     """Proportional controller of the bar angle."""
@@ -17,7 +19,7 @@ class BarAngleLoop(Parameters):
 @kernel
 def outer_gain(loop, speed: float) -> float:
     """K_p (1/rad) at a pump speed (rad/s)."""
-    return loop.gain * (1.0 + loop.schedule * (loop.gain_speed / speed - 1.0))
+    return loop.gain * (1.0 + loop.schedule * (loop.gain_speed / max(speed, LEAST_SPEED) - 1.0))
 
 
 @kernel

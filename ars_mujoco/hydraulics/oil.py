@@ -2,7 +2,7 @@
 
 import math
 
-from pydantic import model_validator
+from pydantic import ValidationInfo, field_validator
 
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Number, Parameters, Quantity
@@ -24,11 +24,12 @@ class Oil(Parameters):
     viscosity_40: Quantity("m^2/s", ge=2e-6)  # kinematic, at 40 degC
     viscosity_100: Quantity("m^2/s", ge=2e-6)  # at 100 degC
 
-    @model_validator(mode="after")
-    def _thins_with_temperature(self) -> "Oil":
-        if self.viscosity_100 >= self.viscosity_40:
-            raise ValueError("viscosity_100: must be less than viscosity_40; an oil thins as it warms")
-        return self
+    @field_validator("viscosity_100")
+    @classmethod
+    def _thins_with_temperature(cls, viscosity: float, info: ValidationInfo) -> float:
+        if viscosity >= info.data.get("viscosity_40", math.inf):
+            raise ValueError("must be less than viscosity_40: an oil thins as it warms")
+        return viscosity
 
 
 class Fluid(Parameters):

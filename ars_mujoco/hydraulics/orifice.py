@@ -1,4 +1,4 @@
-"""Orifice: the flow through a sharp edge goes with the square root of the pressure difference (paper eqs. 9, 10)."""
+"""Orifice: the flow through a sharp edge goes with the square root of the pressure difference (paper eqs. 9 to 11)."""
 
 import math
 

@@ -25,7 +25,12 @@ BY_UNIT = {
     "J": ("kJ", 1e-3),
     "1": ("-", 1.0),
 }
-BY_NAME_AND_UNIT = {("speed", "m/s"): ("km/h", 3.6), ("heave", "m"): ("mm", 1e3), ("travel", "m"): ("mm", 1e3)}
+BY_NAME_AND_UNIT = {
+    ("speed", "m/s"): ("km/h", 3.6),
+    ("speed", "rad/s"): ("rpm", 30 / math.pi),
+    ("heave", "m"): ("mm", 1e3),
+    ("travel", "m"): ("mm", 1e3),
+}
 
 QUANTITIES = {
     "deg": "angle",
@@ -40,6 +45,7 @@ QUANTITIES = {
     "m": "position",
     "mm": "travel",
     "m/s": "velocity",
+    "rpm": "speed",
     "-": "fraction",
 }
 
@@ -55,6 +61,7 @@ LEAST = {
     "kJ": 0.1,
     "mm": 5.0,
     "km/h": 5.0,
+    "rpm": 100.0,
 }
 MARGIN = 0.06
 FEW_LABELS = 0.5  # of a decade: a half range above it leaves no room for the labels of a tenth of the decade

@@ -65,6 +65,14 @@ TABS = (
     Tab("energy", _energy_plots(_axles)),
     Tab("pump energy", _energy_plots(lambda *signals: signals)),
     Tab(
+        "drive",
+        (
+            Plot("pump speed", _axles("pump.speed")),
+            Plot("gear", ("drive.gear",)),
+            Plot("power of the drive", ("drive.power",)),
+        ),
+    ),
+    Tab(
         "tires",
         (
             Plot("tire vertical force", _corners("tire.vertical_force")),

@@ -8,6 +8,7 @@ from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
 from ars_mujoco.channels import Signal
 from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.hydraulics.detailed_circuit import WORK
+from ars_mujoco.hydraulics.drive import DriveOutput
 from ars_mujoco.kernel import NativeCallback, entry, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import reference, stabilizers
@@ -41,6 +42,7 @@ class Output(Parameters):
     sensor: SensorOutput
     front: AxleOutput
     rear: AxleOutput
+    drive: DriveOutput
 
 
 ADDRESSES = np.dtype(
@@ -121,7 +123,7 @@ def act(world, mj) -> None:
     mj.xfrc_applied[6 * int(at.body) + 1] = -p.mass * out.body.lateral_acceleration
     command = later.reference
     front, rear = stabilize_both(
-        p.stabilizers, now.stabilizers, later.stabilizers, out.front, out.rear, mj.time, h,
+        p.stabilizers, now.stabilizers, later.stabilizers, out.drive, out.front, out.rear, mj.time, h, NO_SPEED,
         (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
         world.scratch.work,
     )  # fmt: skip

@@ -16,6 +16,7 @@ from ars_mujoco.channels import Signal
 from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.driver import Driver, DriverOutput, DriverState, drive, preview
 from ars_mujoco.hydraulics.detailed_circuit import WORK
+from ars_mujoco.hydraulics.drive import DriveOutput
 from ars_mujoco.kernel import NativeCallback, entry, kernel
 from ars_mujoco.parameters import Parameters, record_dtype
 from ars_mujoco.rigs import reference, stabilizers
@@ -75,6 +76,7 @@ class Output(Parameters):
     rr: CornerOutput
     front: AxleOutput
     rear: AxleOutput
+    drive: DriveOutput
 
 
 # where things are in the model: numbers of bodies, degrees of freedom, joints, sites and controls
@@ -199,7 +201,7 @@ def act(world, mj) -> None:
 
     command = later.reference
     front, rear = stabilize_both(
-        p.stabilizers, now.stabilizers, later.stabilizers, out.front, out.rear, mj.time, h,
+        p.stabilizers, now.stabilizers, later.stabilizers, out.drive, out.front, out.rear, mj.time, h, body.speed,
         (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
         world.scratch.work,
     )  # fmt: skip

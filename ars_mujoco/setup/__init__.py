@@ -3,10 +3,13 @@
 from importlib import import_module
 from pathlib import Path
 
-from ars_mujoco.actuators.actuator import Actuator
+from ars_mujoco.actuators.actuator import Actuator, PumpControlled
+from ars_mujoco.actuators.drive import fill_drive
 from ars_mujoco.control.control_unit import check_timing
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.cycle import Cycle
+from ars_mujoco.errors import InputError
+from ars_mujoco.hydraulics.engine import Engine
 from ars_mujoco.law import law
 from ars_mujoco.parameters import fill
 from ars_mujoco.setup.start import Start
@@ -27,5 +30,16 @@ def prepare(cycle: Cycle, actuator: Actuator, controller: Controller, vehicle: B
     check_timing(controller.unit, start.step)
     fill(start.parameters.stabilizers.loop, controller.loop)
     fill(start.parameters.stabilizers.unit, controller.unit)
+    if isinstance(actuator, PumpControlled):
+        if isinstance(actuator.drive, Engine) and cycle.rig != "sedan":
+            raise InputError(
+                f"drive.kind: 'engine' turns with the road speed, which the rig {cycle.rig} has not; "
+                "allowed: constant, table, electric"
+            )
+        fill_drive(start.parameters.stabilizers.drive, actuator.drive)
+    if controller.pressure_feedback:
+        fill(start.parameters.stabilizers.feedback, controller.pressure_feedback)
+    if controller.compensator:
+        fill(start.parameters.stabilizers.compensator, controller.compensator)
     set_up = import_module(f"ars_mujoco.setup.{cycle.rig}").set_up
     return set_up(start, cycle, actuator, controller, vehicle)

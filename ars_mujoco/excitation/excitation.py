@@ -1,0 +1,77 @@
+"""Excitation: what drives the bench, as knots, a sine, a sweep or a recorded input."""
+
+from functools import cache
+
+import numpy as np
+from pydantic import create_model, model_validator
+
+from ars_mujoco import signal
+from ars_mujoco.excitation.oscillation import OSCILLATION, SineOf, SweepOf, oscillating
+from ars_mujoco.excitation.samples import SAMPLES, SamplesOf, sampled
+from ars_mujoco.kernel import kernel
+from ars_mujoco.signal import SIGNAL, Knots, KnotsOf
+
+JOINED, OSCILLATING, SAMPLED = range(3)
+FORMS = ("knots", "sine", "sweep", "recorded")
+
+# kind is a whole number held as a float; the records of the other kinds stay zero
+EXCITATION = np.dtype([("kind", "f8"), ("knots", SIGNAL), ("oscillation", OSCILLATION), ("samples", SAMPLES)])
+
+
+class Excitation(Knots):
+    """One of the forms; a step is two knots with `join: step`."""
+
+    knots: tuple[tuple[float, float], ...] | None = None
+    sine: SineOf("1") | None = None
+    sweep: SweepOf("1") | None = None
+    recorded: SamplesOf("1") | None = None  # a CSV file of times and values, units in its header
+
+    @model_validator(mode="after")
+    def _has_one_form(self):
+        forms = [form for form in FORMS if getattr(self, form) is not None]
+        if len(forms) != 1:
+            raise ValueError(f"needs one of {', '.join(FORMS)}{', not ' * bool(forms)}{' and '.join(forms)}")
+        if "join" in self.model_fields_set and self.knots is None:
+            raise ValueError(f"join is for knots; a {forms[0]} has none")
+        return self
+
+    def record(self) -> np.record:
+        """The EXCITATION record, in s and SI."""
+        record = np.zeros(1, EXCITATION).view(np.recarray)[0]
+        if self.knots:
+            record.kind, record.knots = JOINED, self.signal()
+        elif self.recorded:
+            record.kind = SAMPLED
+            self.recorded.fill(record.samples)
+        else:
+            record.kind, record.oscillation = OSCILLATING, (self.sine or self.sweep).oscillation()
+        return record
+
+
+@cache
+def ExcitationOf(unit: str) -> type[Excitation]:  # noqa: N802 (reads as a type)
+    """An Excitation whose values carry a unit of the dimension of `unit`."""
+    return create_model(
+        f"ExcitationOf({unit})",
+        __base__=Excitation,
+        knots=(KnotsOf(unit).model_fields["knots"].annotation | None, None),
+        sine=(SineOf(unit) | None, None),
+        sweep=(SweepOf(unit) | None, None),
+        recorded=(SamplesOf(unit) | None, None),
+    )
+
+
+def peak(record) -> float:
+    """The largest magnitude that an EXCITATION record can reach."""
+    wave = record.oscillation
+    return max(abs(record.knots.values).max(), abs(wave.offset) + abs(wave.amplitude), abs(record.samples.values).max())
+
+
+@kernel
+def value(p, t: float) -> float:
+    """Value at `t` (s) of an EXCITATION."""
+    if p.kind == OSCILLATING:
+        return oscillating(p.oscillation, t)
+    if p.kind == SAMPLED:
+        return sampled(p.samples, t)
+    return signal.value(p.knots, t)
