@@ -17,7 +17,7 @@ from ars_mujoco.reproduce.claim import (
     holds,
     holds_only,
 )
-from ars_mujoco.reproduce.evidence import Evidence
+from ars_mujoco.reproduce.evidence import FULL, S_CURVE, Evidence
 from ars_mujoco.reproduce.valve_systems import SYSTEMS, idle_power, shaft_energy
 
 REVERSAL = (14.0, 18.0)  # s, "second 14 to second 18"
@@ -170,6 +170,21 @@ def loss_and_flow(evidence: Evidence) -> Finding:
     )
 
 
+@GROUP.claim("section 2", "There are no throttling losses within the main power lines.")
+def throttling(evidence: Evidence) -> Finding:
+    run = evidence.run(S_CURVE, actuator=FULL)
+    shaft, *lost = (float(run[f"front.energy.{name}"][-1]) for name in ("shaft", "line", "check", "relief"))
+    return Finding(
+        ours=(
+            Number("lost in lines, check and relief valves", sum(lost), "J"),
+            Number("share of the shaft's work", 100 * sum(lost) / shaft, "%"),
+        ),
+        verdict=holds(sum(lost) < NOTHING * shaft, does_not_follow("the full circuit")),
+        why="The S-curve with the full circuit: lines of 10 mm with their friction, fail-safe valve, check and relief "
+        "valves.",
+    )
+
+
 @GROUP.claim("section 7", "The power is minimized, covering only load-dependent losses.")
 def load_dependent(evidence: Evidence) -> Finding:
     run = evidence.s_curve
@@ -186,7 +201,7 @@ def load_dependent(evidence: Evidence) -> Finding:
             ),
         ),
         verdict=holds(share < WORTH, does_not_follow("eq. 22 with a term of the speed alone")),
-        why=f"A pump that turns has drag and churning losses without any load, {idle:.0f} W with the stated coefficients.",
+        why=f"A pump that turns drags and churns without any load too: {idle:.0f} W with the stated coefficients.",
     )
 
 

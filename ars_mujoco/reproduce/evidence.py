@@ -6,7 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from ars_mujoco.analysis import frequency_response, hydraulic_poles, root_locus, stable_region, steady_state
+from ars_mujoco.analysis import (
+    compensators,
+    frequency_response,
+    hydraulic_poles,
+    root_locus,
+    stable_region,
+    steady_state,
+)
 from ars_mujoco.analysis.analyze import read_analyzed
 from ars_mujoco.analysis.loop import Loop, loop_of, record_of
 from ars_mujoco.analysis.parameter_box import TABLE_2
@@ -103,6 +110,11 @@ class Evidence:
     def steady_state(self) -> dict[str, Any]:
         """Error at rest over leakage, gain and speed."""
         return steady_state.compute(self.loop)
+
+    @cached_property
+    def compensators(self) -> dict[str, Any]:
+        """What pressure feedback and a second-order compensator do, here and on the robot's joint."""
+        return compensators.compute(self.loop)
 
 
 @entry

@@ -7,6 +7,7 @@ from ars_mujoco.actuators.axle import Axle
 from ars_mujoco.analysis.parameter_box import TABLE_2
 from ars_mujoco.hydraulics.full_circuit import ANGLE, POWERS, RATE, STATES, A, full_rates, rest
 from ars_mujoco.hydraulics.pipe import LAMINAR, inertance, pressure_drop, reynolds
+from ars_mujoco.kernel import entry
 from ars_mujoco.parameters import record_dtype
 from ars_mujoco.reproduce.claim import Finding, Group, Number, apart, does_not_follow, holds
 from ars_mujoco.reproduce.evidence import Evidence
@@ -74,8 +75,8 @@ def capacitance_range(evidence: Evidence) -> Finding:
         ),
         verdict=holds(least <= ours <= greatest, does_not_follow("Table 1 and eq. 32")),
         why=f"V_L and the motor's chamber in its middle are {1e6 * volume:.0f} cm^3 a side; oil has "
-        f"{modulus / 1e9:.1f} GPa here, air and walls aside. Table 1's V_L is {evidence.V_L / (2.0 * np.pi * evidence.D):.3f} of V_M: it "
-        "may be a chamber's volume instead of a line's.",
+        f"{modulus / 1e9:.1f} GPa here, air and walls aside. Table 1's V_L is "
+        f"{evidence.V_L / (2.0 * np.pi * evidence.D):.3f} of V_M: it may be a chamber's volume instead of a line's.",
     )
 
 
@@ -92,12 +93,17 @@ def _hydraulic_frequency(evidence: Evidence, density: float) -> float:
     state[A : A + int(axle.detail.pipe.lumps) + 1] += 0.5 * MAX_PRESSURE
 
     def rates(x):
-        dx, power = np.zeros(STATES), np.zeros(POWERS)
-        full_rates(axle.circuit, axle.detail, 0.0, x, dx, power, 0.0, 0.0, 0.0, 1.0)
-        return dx
+        return _rates(axle.circuit, axle.detail, x)
 
     nudges = np.where(state > 1.0, 1.0, 1e-9)  # Pa, m^3/s
     nudges[[ANGLE, RATE]] = 1e-6
     slopes = [(rates(state + nudge) - rates(state - nudge)) / (2.0 * nudge.sum()) for nudge in np.diag(nudges)]
     poles = np.linalg.eigvals(np.column_stack(slopes))
     return float(np.abs(poles[poles.imag > 1.0]).min())
+
+
+@entry
+def _rates(circuit, detail, state):
+    dx, power = np.zeros(STATES), np.zeros(POWERS)
+    full_rates(circuit, detail, 0.0, state, dx, power, 0.0, 0.0, 0.0, 1.0)
+    return dx

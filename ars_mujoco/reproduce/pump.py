@@ -7,6 +7,8 @@ import numpy as np
 
 from ars_mujoco.hydraulics.control_cylinder import common_capacitance
 from ars_mujoco.hydraulics.metering_edge import common_flow
+from ars_mujoco.hydraulics.servo_valve import spool_acceleration
+from ars_mujoco.kernel import entry
 from ars_mujoco.reproduce.claim import (
     REPRODUCED,
     Finding,
@@ -70,6 +72,17 @@ def servo_valve_constant(evidence: Evidence) -> Finding:
     )
 
 
+@GROUP.claim("section 4.1.1", "The servo valve's dynamics vary with the commanded step size.")
+def valve_step_size(evidence: Evidence) -> Finding:
+    small, large = (1e3 * _rise_time(evidence.loop.circuit.servo_valve, size) for size in (0.1, 1.0))
+    return Finding(
+        ours=(Number("0 to 90 % of a step of 10 %", small, "ms"), Number("of a full step", large, "ms")),
+        verdict=holds(large > (1.0 + SLIGHT) * small, does_not_follow("the valve of Fig. 7")),
+        why="Below its speed limit the spool is linear, and steps of all sizes take the same time; beyond it, a larger "
+        "step takes longer.",
+    )
+
+
 @GROUP.claim("section 3", "The pump control requires very low flow, so a single-stage valve is enough.")
 def control_flow(evidence: Evidence) -> Finding:
     run = evidence.s_curve
@@ -120,3 +133,14 @@ def _cylinder_flow(evidence: Evidence, rate: float) -> float:
 
 def _percents(shares: tuple[float, float]) -> tuple[float, float]:
     return 100.0 * shares[0], 100.0 * shares[1]
+
+
+@entry
+def _rise_time(valve, size):
+    """Time (s) that the spool takes from rest to 90 % of a commanded stroke `size`."""
+    stroke, rate, step, count = 0.0, 0.0, 1e-6, 0
+    while stroke < 0.9 * size:
+        rate += step * spool_acceleration(valve, stroke, rate, size)
+        stroke += step * rate
+        count += 1
+    return count * step

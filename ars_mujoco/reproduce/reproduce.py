@@ -10,6 +10,7 @@ from typing import Any
 from ars_mujoco.recording.folder import check_writable, write_whole
 from ars_mujoco.recording.summary import versions
 from ars_mujoco.reproduce import (
+    compensation,
     control_loop,
     energy,
     lines,
@@ -26,8 +27,21 @@ from ars_mujoco.reproduce.page import PAPER, Section, page
 SCHEMA_VERSION = 1
 HTML, JSON = "reproduce.html", "reproduce.json"
 GROUPS = tuple(
-    module.GROUP for module in (sizing, pump, vane_motor, lines, poles, control_loop, energy, roll, misprints)
+    module.GROUP
+    for module in (
+        sizing,
+        pump,
+        vane_motor,
+        lines,
+        poles,
+        control_loop,
+        compensation,
+        energy,
+        roll,
+        misprints,
+    )
 )
+ANALYSES = ("hydraulic_poles", "root_locus", "frequency_response", "stable_region", "steady_state", "compensators")
 INTRODUCTION = (
     "Each claim of the paper beside what the running code gives for it, the verdict, and why. The paper's numbers are "
     "quoted from the place that is named; ours are computed when this page is made. Its figures are lost, so their "
@@ -70,10 +84,7 @@ def record(evidence: Evidence, sections: list[Section]) -> dict[str, Any]:
         "groups": [
             {"title": section.title, "claims": [claim.record() for claim in section.claims]} for section in sections
         ],
-        "analyses": {
-            name: getattr(evidence, name)
-            for name in ("hydraulic_poles", "root_locus", "frequency_response", "stable_region", "steady_state")
-        },
+        "analyses": {name: getattr(evidence, name) for name in ANALYSES},
     }
 
 
