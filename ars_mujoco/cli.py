@@ -23,6 +23,8 @@ app = typer.Typer(
 
 RUNS = Path("runs")  # folder of results, unless --out names another
 BENCH_CYCLE = "s_curve_120kmh"  # the sedan with everything on it
+CIRCUITS = {"reduced": "pump_controlled", "full": "pump_controlled_full"}  # shipped actuators
+STAGES = ("third_order", "reduced", "full")  # of pump control
 
 
 class Listing(StrEnum):
@@ -152,21 +154,37 @@ def view(
 
 @app.command()
 def bench(as_json: Json = False) -> None:
-    """Cost of a closed-loop step over a bare mj_step of the same model, and the real-time factor."""
+    """Cost of a closed-loop step over a bare mj_step of the same model, at every stage of the hydraulics."""
     from dataclasses import asdict
 
-    from ars_mujoco.benchmark import measure
+    from ars_mujoco.benchmark import measure, recording_ratio
     from ars_mujoco.inputs import read_inputs
     from ars_mujoco.study import simulation_of
 
-    cost = measure(simulation_of(read_inputs(BENCH_CYCLE)))
+    rows = []
+    for circuit, actuator in CIRCUITS.items():
+        for stage in STAGES:
+            inputs = read_inputs(BENCH_CYCLE, actuator, settings=[f"actuator.pump_control={stage}"])
+            rows.append({"circuit": circuit, "pump_control": stage, **asdict(measure(simulation_of(inputs)))})
+    recording = recording_ratio(simulation_of(read_inputs(BENCH_CYCLE)))
     if as_json:
-        _print_json({"cycle": BENCH_CYCLE, **asdict(cost)})
+        _print_json({"cycle": BENCH_CYCLE, "stages": rows, "recording_ratio": recording})
         return
-    print(f"closed loop  {1e6 * cost.closed_loop:.2f} us a step, {cost.real_time_factor:.0f} times real time")
-    print(f"bare step    {1e6 * cost.bare:.2f} us")
-    print("ratio        {:.3f}, quartiles {:.3f} to {:.3f}".format(cost.ratio, *cost.ratio_quartiles))
-    print(f"recording    {cost.recording_ratio:.3f} times the run without its .rrd")
+    _print_table(BENCH_CYCLE, [_cost(row) for row in rows])
+    print(f"A run that writes its .rrd takes {recording:.3f} times one that does not (reduced, third_order).")
+
+
+def _cost(row: dict[str, Any]) -> dict[str, str]:
+    """A stage of the benchmark in the table."""
+    return {
+        "circuit": row["circuit"],
+        "pump control": row["pump_control"],
+        "closed loop": f"{1e6 * row['closed_loop']:.2f} us",
+        "bare step": f"{1e6 * row['bare']:.2f} us",
+        "ratio": f"{row['ratio']:.3f}",
+        "quartiles": "{:.3f} to {:.3f}".format(*row["ratio_quartiles"]),
+        "times real time": f"{row['real_time_factor']:.0f}",
+    }
 
 
 @app.command()

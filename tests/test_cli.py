@@ -124,7 +124,7 @@ def test_check_fails_a_cycle_that_does_not(ars, tmp_path):
         ),
         (
             ["run", "small.yaml", "--vehicle", "sedan"],
-            "vehicle 'sedan' is of another rig than the cycle's, bench; allowed: bench",
+            "vehicle 'sedan' is of another rig than the cycle's, bench; allowed: bench, robot_joint",
         ),
         (["run", "small.yaml", "--actuator", "passive"], "actuator 'passive' has nothing to command on the bench"),
         (

@@ -11,8 +11,9 @@ WINDOW = (1.0, 9.0)
 TIME = np.linspace(0, 10, 10001)
 TARGET = ((0.0, 0.0), (0.3 * G, 0.0), (0.6 * G, np.radians(0.3)), (0.8 * G, np.radians(1.3)))
 FOUND_AGAIN = (
-    "oil", "bar", "inertia", "work",
+    "oil", "bar", "inertia", "oil_motion", "work",
     "pump_torque_loss", "pump_leakage", "motor_leakage", "relief", "friction", "capacitance",
+    "line", "check", "bypass", "tank_leakage", "charge_loss",
 )  # fmt: skip
 
 
@@ -44,12 +45,13 @@ def on_target(g: float, target=TARGET) -> float:
 
 
 def pumping(axles=("front",), astray: float = 0.0, scale: float = 1.0) -> Recording:
-    """Each axle's shaft draws 1000 `scale` J, gives 20 back, and all but `astray` J of each are found again."""
+    """Each axle draws 1000 `scale` J by its shaft and 50 for its charge, and all but `astray` J are found again."""
     grown = TIME / TIME[-1]
     signals = {}
     for axle in axles:
-        energies = dict.fromkeys(FOUND_AGAIN, 100.0 * scale)
-        energies |= {"shaft": 1000.0 * scale + astray, "throughput": 2000.0 * scale, "recovered": 20.0, "charge": 50.0}
+        energies = dict.fromkeys(FOUND_AGAIN, 1050.0 / len(FOUND_AGAIN) * scale)
+        energies |= {"shaft": 1000.0 * scale + astray, "charge": 50.0 * scale}
+        energies |= {"throughput": 2000.0 * scale, "recovered": 20.0}
         signals |= {f"{axle}__energy__{name}": 7.0 + energy * grown for name, energy in energies.items()}
         signals[f"{axle}__pump__shaft_power"] = 100.0 * np.sin(2 * np.pi * TIME)
     return recording(**signals)

@@ -39,8 +39,8 @@ GAINS = np.geomspace(0.01, 30.0, 48)  # of pressure feedback, over what would ma
 CORNERS = np.geomspace(0.1, 6.0, 12)  # of pressure feedback, over the hydraulic frequency
 NEW_DAMPINGS = np.geomspace(0.1, 3.0, 30)  # of the second-order compensator
 RATIOS = np.geomspace(0.2, 10.0, 25)  # of the pump control's -3 dB point to the hydraulic frequency
-POINTS = 600  # of frequency
-SLOWEST, FASTEST = 0.1, 3.0  # of them: rad/s, and over the fastest pole where no sampling ends them
+POINTS = 1000  # of frequency
+SLOWEST, FASTEST = 5e-3, 3.0  # of them, over the hydraulic frequency; half the sampling ends them too
 LOOP_GAINS, HALVINGS = (1e-3, 1e4), 20  # 1/rad, where a loop gain is sought, and how often this is halved
 SLOW_HYDRAULICS = 2.34e-13  # m^3/Pa, capacitance of the high-pressure side alone: 450 rad/s with the bar
 AT_REST = 1e-3  # rad/s; a slower pole is the angle's own, at 0 where no spring holds the shaft
@@ -56,7 +56,7 @@ UNITS = {"frequency": "rad/s", "damping": "1", "lag": "deg", "gain": "1/Pa", "co
 
 def pressure_feedback(gain: float, corner: float, sample_time: float = 0.0) -> control.TransferFunction:
     """From pressure (Pa) to what is taken off the stroke command (1); digital where there is a sample time (s)."""
-    return _digital(control.tf([gain, 0.0], [1.0, corner]), corner, sample_time)
+    return gain * _digital(control.tf([1.0, 0.0], [1.0, corner]), corner, sample_time)
 
 
 def pole_compensator(
@@ -90,9 +90,15 @@ def lag(loop: Loop, sample_time: float = 0.0, delay: float = 0.0) -> float:
     return math.degrees(frequency * (0.5 * sample_time + delay) - float(np.unwrap(np.angle(response))[-1]))
 
 
+def pace(loop: Loop) -> float:
+    """-3 dB point (rad/s) of the pump control."""
+    omega = hydraulic_pair(loop)[0] * np.geomspace(RATIOS[0], RATIOS[-1], POINTS)
+    return 2.0 * math.pi * bandwidth(omega, pump_control(loop)(1j * omega), 1.0)
+
+
 def at_ratio(loop: Loop, ratio: float) -> Loop:
     """The loop with all of its pump control faster or slower: -3 dB at `ratio` times the hydraulic frequency."""
-    factor = ratio * hydraulic_pair(loop)[0] / float(control.bandwidth(pump_control(loop)))
+    factor = ratio * hydraulic_pair(loop)[0] / pace(loop)
     circuit = loop.circuit.copy()
     for part, name in (
         (circuit.servo_valve, "frequency"),
@@ -133,9 +139,9 @@ def most_damping(systems: Sequence[control.StateSpace], gains: np.ndarray, corne
     return best
 
 
-def most_bandwidth(system: control.StateSpace, gains: np.ndarray, corners: np.ndarray) -> dict[str, float]:
+def most_bandwidth(loop: Loop, system: control.StateSpace, gains: np.ndarray, corners: np.ndarray) -> dict[str, float]:
     """Pressure feedback with the most `bandwidth` at the wanted margins, its `gain`, `corner` and `loop_gain`."""
-    omega, at_rest, best = _frequencies(system), _at_rest(system), {"bandwidth": 0.0}
+    omega, at_rest, best = _frequencies(loop, system.dt), _at_rest(system), {"bandwidth": 0.0}
     angle, pressure = _response(system, omega)[:, 0]
     for corner in _filtered(corners, system.dt):
         high_pass = _response(pressure_feedback(1.0, corner, system.dt), omega)[0, 0]
@@ -149,7 +155,7 @@ def most_bandwidth(system: control.StateSpace, gains: np.ndarray, corners: np.nd
 
 def compensated(loop: Loop, system: control.StateSpace) -> dict[str, float]:
     """The second-order compensator on the hydraulic poles with the most `bandwidth` at the wanted margins."""
-    omega, at_rest, best = _frequencies(system), _at_rest(system), {"bandwidth": 0.0}
+    omega, at_rest, best = _frequencies(loop, system.dt), _at_rest(system), {"bandwidth": 0.0}
     angle, (frequency, damping) = _response(system, omega)[0, 0], hydraulic_pair(loop)
     for new_damping in NEW_DAMPINGS.tolist():
         filtering = pole_compensator(frequency, damping, new_damping, system.dt)
@@ -253,14 +259,14 @@ def _row(loop: Loop, sample_time: float, delay: float) -> dict[str, Any]:
     system = behind_unit(loop, sample_time, delay)
     is_seen = hydraulic_pair(loop)[0] * sample_time < math.pi
     gains, corners = settings(loop)
-    without = most_bandwidth(system, gains[:1], corners[:1])
+    without = most_bandwidth(loop, system, gains[:1], corners[:1])
     return {
         "sample_time": sample_time,
         "delay": delay,
         "lag": lag(loop, sample_time, delay),
         "without": {name: without[name] for name in ("bandwidth", "loop_gain")},
         **{name: most_damping([system], *settings(loop, sign)) if is_seen else None for name, sign in SIGNS.items()},
-        "pressure_feedback": most_bandwidth(system, gains[::2], corners),
+        "pressure_feedback": most_bandwidth(loop, system, gains[::2], corners),
         "compensator": compensated(loop, system) if is_seen else None,
     }
 
@@ -280,7 +286,7 @@ def _over_ratio(loop: Loop) -> dict[str, Any]:
     return {
         "frequency": frequency,
         "damping": damping,
-        "own_ratio": float(control.bandwidth(pump_control(loop))) / frequency,
+        "own_ratio": pace(loop) / frequency,
         "lag": [lag(each) for each in paced],
         **{
             name: [most_damping([actuator(each)], *settings(loop, sign))["damping"] for each in paced]
@@ -341,9 +347,10 @@ def _digital(system: control.TransferFunction, frequency: float, sample_time: fl
     return control.sample_system(system, sample_time, "bilinear", prewarp_frequency=frequency)
 
 
-def _frequencies(system: control.StateSpace) -> np.ndarray:
-    fastest = math.pi / system.dt * (1.0 - 1e-6) if system.dt else FASTEST * np.abs(system.poles()).max()
-    return np.geomspace(SLOWEST, fastest, POINTS)
+def _frequencies(loop: Loop, sample_time: float) -> np.ndarray:
+    frequency, _ = hydraulic_pair(loop)
+    fastest = math.pi / sample_time * (1.0 - 1e-6) if sample_time else math.inf
+    return np.geomspace(SLOWEST * frequency, min(FASTEST * frequency, fastest), POINTS)
 
 
 def _response(system: control.StateSpace | control.TransferFunction, omega: np.ndarray) -> np.ndarray:

@@ -21,7 +21,7 @@ DELAYS = (0.0, 2e-3, 5e-3, 10e-3)  # s
 SPEEDS = (1500.0, 3000.0, 6000.0)  # rpm
 SCHEDULES = {"fixed": 0.0, "scheduled": 1.0}  # K_p ~ 1/n
 POINTS = 800  # of frequency, between 1 rad/s and the sampling's limit
-FASTEST = 3000.0  # rad/s, beyond every pole of the actuator
+FASTEST = 3000.0  # rad/s, beyond every crossing
 UNITS = {
     "sample_time": "s",
     "delay": "s",
@@ -67,15 +67,18 @@ def sampled_loop(loop: Loop, sample_time: float, delay: float) -> control.StateS
 def margins(system: control.StateSpace) -> dict[str, Any]:
     """Margins of an open loop: `gain_margin` dB, `phase_margin` deg, `bandwidth` Hz (-3 dB of the closed loop), and
     whether the closed loop `is_stable`; None where there is no such crossing.
+
+    A resonance may cross unit gain on the far side of -180 deg: of a stable loop the margin is the distance.
     """
     omega = _frequencies(system)
     response = system(np.exp(1j * omega * system.dt)) if system.dt else system(1j * omega)
     gain, phase, *_ = control.stability_margins(control.frd(response, omega, smooth=True))
+    is_stable = _is_stable(control.feedback(system))
     return {
         "gain_margin": 20.0 * math.log10(gain) if math.isfinite(gain) else None,
-        "phase_margin": float(phase) if math.isfinite(phase) else None,
+        "phase_margin": float(abs(phase) if is_stable else phase) if math.isfinite(phase) else None,
         "bandwidth": bandwidth(omega, response / (1.0 + response), control.dcgain(control.feedback(system))),
-        "is_stable": _is_stable(control.feedback(system)),
+        "is_stable": is_stable,
     }
 
 

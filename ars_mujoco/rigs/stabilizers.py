@@ -84,10 +84,11 @@ def stabilize_both(
             )
         front_bias, rear_bias = delayed(p.unit, later.delay, later.front_stroke, later.rear_stroke, step)
         front_gain = rear_gain = 0.0
+    front_valves, rear_valves = _openings(p.front, p.front_valves, time), _openings(p.rear, p.rear_valves, time)
     torques = stabilize(
         p, now, later, front_out, rear_out, front_twist, rear_twist,
-        (front_command, front_gain, front_bias), (rear_command, rear_gain, rear_bias),
-        (_openings(p.front, p.front_valves, time), _openings(p.rear, p.rear_valves, time)), step, work,
+        _demand(front_command, front_gain, front_bias, front_valves),
+        _demand(rear_command, rear_gain, rear_bias, rear_valves), (front_valves, rear_valves), step, work,
     )  # fmt: skip
     done = later.front.energy.shaft - now.front.energy.shaft + later.rear.energy.shaft - now.rear.energy.shaft
     take_work(p.drive, now.drive, later.drive, drive_out, done, step)
@@ -108,6 +109,14 @@ def _stroke(p, now, later, circuit, gain, command):
 @kernel
 def _gain(axle, loop):
     return outer_gain(loop, axle.circuit.pump.speed) if axle.kind >= PUMP_CONTROLLED else 0.0
+
+
+@kernel
+def _demand(command, gain, bias, valves):
+    # where a valve is told to cut the motor off, the unit swashes the pump back in place of pumping against it
+    bypass, fail_safe = valves
+    connected = (1.0 - bypass) * fail_safe
+    return command, connected * gain, connected * bias
 
 
 @kernel

@@ -95,6 +95,7 @@ def test_a_command_of_zero_leaves_everything_at_rest_and_pays_the_idling_pump(pa
     recording = run([(0.0, 0.0, "deg")], parameters=parameters)
     paid = {"front.energy.shaft", "front.energy.pump_torque_loss", "front.energy.charge", "front.energy.throughput"}
     paid |= {"front.pump.shaft_power", "front.pump.loss_power", "drive.power"}
+    paid |= {"front.energy.charge_loss", "front.charge.power"}
     turning = {"front.pump.speed", "drive.speed"}
     moving = {name for name in recording.channels if np.any(recording[name])}
     assert moving == paid | turning

@@ -62,8 +62,8 @@ def test_an_explicit_method_of_order_eight_gives_the_same_run(degrees):
         (0, 0.1),
         rest(run.plant),
         "DOP853",
-        rtol=1e-9,
-        atol=1e-9 * np.array(list(run.plant.sizes.values())),
+        rtol=1e-10,
+        atol=1e-10 * np.array(list(run.plant.sizes.values())),
     )
     implicit = run.state(explicit.t)
     for name, expected in zip(run.plant.sizes, explicit.y, strict=True):
