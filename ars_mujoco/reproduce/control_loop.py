@@ -8,7 +8,7 @@ import numpy as np
 
 from ars_mujoco.analysis import frequency_response, root_locus, stable_region, steady_state
 from ars_mujoco.analysis.frequency_response import linear, measured
-from ars_mujoco.analysis.linearization import open_loop, state_matrices
+from ars_mujoco.analysis.linearization import open_loop, pump_control
 from ars_mujoco.analysis.loop import RPM
 from ars_mujoco.analysis.margins import margins
 from ars_mujoco.analysis.parameter_box import TABLE_2, grid
@@ -53,8 +53,7 @@ def hydraulic_pair(evidence: Evidence) -> Finding:
 
 @GROUP.claim("Fig. 11", "The servo pump's poles have a lower frequency than the hydraulic poles.")
 def servo_pump_poles(evidence: Evidence) -> Finding:
-    A, _ = state_matrices(evidence.loop)
-    pump = np.abs(np.linalg.eigvals(A[:3, :3]))
+    pump = np.abs(pump_control(evidence.loop).poles())
     least = float(evidence.hydraulic_poles["full_box"]["frequency"][0])
     return Finding(
         ours=(
@@ -68,11 +67,12 @@ def servo_pump_poles(evidence: Evidence) -> Finding:
 
 @GROUP.claim("section 5", "The hydraulic poles' influence on the speed of response is not significant.")
 def hydraulic_influence(evidence: Evidence) -> Finding:
-    A, B = state_matrices(evidence.loop)
-    pump = control.ss(A[:3, :3], B[:3], [[0.0, 0.0, 1.0]], 0.0)
     # without oil that yields or inertia the flow turns the motor, and the spring's pressure leaks
     stiff = control.tf([evidence.K_p * evidence.full_flow / evidence.D], [1.0, evidence.k * evidence.c / evidence.D**2])
-    ours, without = (margins(each)["bandwidth"] for each in (open_loop(evidence.loop), pump * control.ss(stiff)))
+    ours, without = (
+        margins(each)["bandwidth"]
+        for each in (open_loop(evidence.loop), pump_control(evidence.loop) * control.ss(stiff))
+    )
     return Finding(
         ours=(Number("bandwidth with them", ours, "Hz"), Number("bandwidth without them", without, "Hz")),
         verdict=agreement(without, ours, holds_only("roughly")),

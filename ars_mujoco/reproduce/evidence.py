@@ -15,9 +15,8 @@ from ars_mujoco.analysis import (
     steady_state,
 )
 from ars_mujoco.analysis.analyze import read_analyzed
-from ars_mujoco.analysis.loop import Loop, loop_of, record_of
+from ars_mujoco.analysis.loop import Loop, loop_of
 from ars_mujoco.analysis.parameter_box import TABLE_2
-from ars_mujoco.hydraulics.oil import fluid
 from ars_mujoco.hydraulics.reduced_circuit import rates
 from ars_mujoco.inputs import Inputs, read_inputs
 from ars_mujoco.kernel import entry
@@ -53,8 +52,8 @@ class Evidence:
         self.pump_share, self.leakages = float(pump.leakage) / self.k, TABLE_2["leakage"]
         self.cylinder, self.edge = circuit.control_cylinder, circuit.metering_edge
         self.full_inputs = read_inputs(S_CURVE, FULL)
-        full = self.full_inputs.actuator.value.front
-        self.pipe, self.fluid = record_of(full.pipe), record_of(fluid(full.oil))
+        self.full_loop = loop_of(self.full_inputs)
+        self.pipe, self.fluid = self.full_loop.detail.pipe, self.full_loop.detail.fluid
 
     def run(self, cycle: str, *settings: str, actuator: str | None = None) -> Recording:
         """The recording of a cycle, run once; with another `actuator` than its own, without the evidence's settings."""

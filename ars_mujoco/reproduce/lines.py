@@ -1,20 +1,18 @@
 """Claims about the hydraulic lines (section 4.2.1)."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from ars_mujoco.actuators.actuator import fill_axle
-from ars_mujoco.actuators.axle import Axle
+from ars_mujoco.analysis.line_inertance import limits, reflected_inertia, without_oil_mass
+from ars_mujoco.analysis.loop import LOW_SIDE_HELD
 from ars_mujoco.analysis.parameter_box import TABLE_2
-from ars_mujoco.hydraulics.full_circuit import ANGLE, POWERS, RATE, STATES, A, full_rates, rest
-from ars_mujoco.hydraulics.pipe import LAMINAR, inertance, pressure_drop, reynolds
-from ars_mujoco.kernel import entry
-from ars_mujoco.parameters import record_dtype
+from ars_mujoco.hydraulics.pipe import LAMINAR, pressure_drop, reynolds
 from ars_mujoco.reproduce.claim import Finding, Group, Number, apart, does_not_follow, holds
 from ars_mujoco.reproduce.evidence import Evidence
-from ars_mujoco.reproduce.sizing import BAR, MAX_PRESSURE
+from ars_mujoco.reproduce.sizing import BAR
 
 NEGLIGIBLE = 0.05  # of Theta
-NO_MASS = 1e-3  # of the oil's density: too little to matter
 EQUAL = 1e-9  # relative; two forms of one equation agree to this
 
 GROUP = Group("Hydraulic lines (section 4.2.1)")
@@ -22,22 +20,23 @@ GROUP = Group("Hydraulic lines (section 4.2.1)")
 
 @GROUP.claim("section 4.2.1", "The forces that accelerate the oil in the lines are negligible beside the payload's.")
 def oil_mass(evidence: Evidence) -> Finding:
-    length, reflected = (
-        float(evidence.pipe.length),
-        2.0 * float(inertance(evidence.pipe, evidence.fluid)) * evidence.D**2,
-    )
-    massless, heavy = (_hydraulic_frequency(evidence, share) for share in (NO_MASS, 1.0))
+    loop, length = replace(evidence.full_loop, checks=LOW_SIDE_HELD), float(evidence.pipe.length)
+    reflected = float(reflected_inertia(loop))
+    massless, heavy = (limits(each) for each in (without_oil_mass(loop), loop))
     return Finding(
         ours=(
             Number(f"oil of two lines of {length:.2f} m as inertia at the motor", reflected, "kg m^2"),
             Number("of two lines of 2 m", reflected * 2.0 / length, "kg m^2"),
             Number("Theta, Table 2", TABLE_2["inertia"], "kg m^2"),
-            Number("omega_H of the full circuit, with and without the oil's mass", (heavy, massless), "rad/s"),
+            Number("omega_H of the full circuit without the oil's mass", massless["frequency"], "rad/s"),
+            Number("with it", heavy["frequency"], "rad/s"),
+            Number("stable K_p without the oil's mass", massless["stable"], "1/rad"),
+            Number("with it", heavy["stable"], "1/rad"),
         ),
         verdict=holds(reflected < NEGLIGIBLE * evidence.theta, does_not_follow("eq. 35 and Table 1")),
-        why=f"rho l/A_L of eq. 35 for both lines times D^2 is {reflected / evidence.theta:.1f} times Theta "
-        f"({length:.2f} m of 10 mm bore hold Table 1's V_L). In the full circuit, linearized at 90 bar, this mass "
-        f"takes {100 * (1 - heavy / massless):.0f} % off the hydraulic frequency.",
+        why=f"rho l/A_L of eq. 35 for both lines times D^2 is {reflected / evidence.theta:.1f} times Theta: "
+        f"{length:.2f} m of 10 mm bore hold Table 1's V_L. The full circuit is linearized with its low-pressure side "
+        "held, as the paper assumes.",
     )
 
 
@@ -78,32 +77,3 @@ def capacitance_range(evidence: Evidence) -> Finding:
         f"{modulus / 1e9:.1f} GPa here, air and walls aside. Table 1's V_L is "
         f"{evidence.V_L / (2.0 * np.pi * evidence.D):.3f} of V_M: it may be a chamber's volume instead of a line's.",
     )
-
-
-def _hydraulic_frequency(evidence: Evidence, density: float) -> float:
-    """Natural frequency (rad/s) of the slowest oscillation of the full circuit under load, without the bar's spring and
-    dry friction, with a share of the oil's `density`. At rest both check valves are about to open and would damp it.
-    """
-    axle = np.zeros(1, record_dtype(Axle)).view(np.recarray)[0]
-    fill_axle(axle, evidence.full_inputs.actuator.value, "front", 0.0, 0.0, 1e-3)
-    axle.circuit.motor.coulomb_friction = 0.0
-    axle.detail.fluid.density *= density
-    state = np.zeros(STATES)
-    rest(axle.circuit, axle.detail, state)
-    state[A : A + int(axle.detail.pipe.lumps) + 1] += 0.5 * MAX_PRESSURE
-
-    def rates(x):
-        return _rates(axle.circuit, axle.detail, x)
-
-    nudges = np.where(state > 1.0, 1.0, 1e-9)  # Pa, m^3/s
-    nudges[[ANGLE, RATE]] = 1e-6
-    slopes = [(rates(state + nudge) - rates(state - nudge)) / (2.0 * nudge.sum()) for nudge in np.diag(nudges)]
-    poles = np.linalg.eigvals(np.column_stack(slopes))
-    return float(np.abs(poles[poles.imag > 1.0]).min())
-
-
-@entry
-def _rates(circuit, detail, state):
-    dx, power = np.zeros(STATES), np.zeros(POWERS)
-    full_rates(circuit, detail, 0.0, state, dx, power, 0.0, 0.0, 0.0, 1.0)
-    return dx

@@ -5,7 +5,6 @@ import math
 import control
 import numpy as np
 
-from ars_mujoco.analysis.margins import FASTEST, POINTS, bandwidth
 from ars_mujoco.hydraulics.control_cylinder import chamber_volumes, common_capacitance
 from ars_mujoco.hydraulics.line import capacitance
 from ars_mujoco.hydraulics.metering_edge import common_flow, edge_flow_a, edge_flow_b
@@ -22,7 +21,7 @@ from ars_mujoco.reproduce.claim import (
     holds,
 )
 from ars_mujoco.reproduce.evidence import Evidence
-from ars_mujoco.reproduce.sizing import BAR, MAX_ANGLE, MAX_PRESSURE
+from ars_mujoco.reproduce.sizing import BAR, MAX_ANGLE, MAX_PRESSURE, corner_frequency
 from ars_mujoco.units import measure
 
 EQUAL = 1e-9  # relative; two forms of one equation agree to this
@@ -145,7 +144,10 @@ def state_vector(evidence: Evidence) -> Finding:
 def servo_pump_lag(evidence: Evidence) -> Finding:
     valve = evidence.loop.circuit.servo_valve
     frequency, damping = float(valve.frequency), float(valve.damping)
-    right, printed = (_lag_bandwidth(square, damping, frequency) for square in (frequency**-2, 1.0 / frequency))
+    right, printed = (
+        corner_frequency(control.tf([1.0], [square, 2.0 * damping / frequency, 1.0]))
+        for square in (frequency**-2, 1.0 / frequency)
+    )
     return Finding(
         ours=(Number("-3 dB by eq. 19", right, "rad/s"), Number("-3 dB by eq. 20", printed, "rad/s")),
         verdict=_same(right, printed, CONTRADICTS_ITSELF),
@@ -215,14 +217,6 @@ def _series(share: float, exact: float, where: str, remark: str) -> Finding:
         verdict=_same(exact, printed, does_not_follow("the equation's own first line")),
         why=f"The series of V_0 + a and V_0 - a is V_0/2 minus a^2/(2 V_0): the capacitance falls away from the middle."
         f"{remark}",
-    )
-
-
-def _lag_bandwidth(square: float, damping: float, frequency: float) -> float:
-    """-3 dB point (rad/s) of 1/(`square` s^2 + 2 d/omega s + 1)."""
-    omega = np.geomspace(1.0, FASTEST, POINTS)
-    return (
-        2.0 * math.pi * bandwidth(omega, control.tf([1.0], [square, 2.0 * damping / frequency, 1.0])(1j * omega), 1.0)
     )
 
 

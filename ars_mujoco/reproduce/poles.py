@@ -6,7 +6,7 @@ import numpy as np
 
 from ars_mujoco.analysis import hydraulic_poles
 from ars_mujoco.analysis.hydraulic_poles import PAPER, pole_pair
-from ars_mujoco.analysis.linearization import PRESSURE, STROKE, hydraulic_matrix, open_loop, state_matrices
+from ars_mujoco.analysis.linearization import hydraulic_matrix, open_loop, plant
 from ars_mujoco.analysis.loop import RPM
 from ars_mujoco.analysis.margins import margins
 from ars_mujoco.analysis.parameter_box import PLANT, TABLE_2, grid
@@ -33,12 +33,12 @@ def state_space(evidence: Evidence) -> Finding:
     D, C, theta = evidence.D, evidence.C, evidence.theta
     A = np.array([[-evidence.k / C, -D / C], [D / theta, -evidence.r_v / theta]])
     found = hydraulic_matrix(evidence.loop)
-    stroke = state_matrices(evidence.loop)[0][PRESSURE, STROKE]
-    difference = max(apart(A, found), apart(evidence.full_flow / C, stroke))
+    by_flow = plant(evidence.loop).B[0, 0]
+    difference = max(apart(A, found), apart(1.0 / C, by_flow))
     return Finding(
         ours=(Number("greatest relative difference of A and B", difference),),
         verdict=holds(difference < EQUAL, does_not_follow("the running equations")),
-        why="Central differences of the running circuit without dry friction, the stroke as a fraction of x_max.",
+        why="Central differences of the running circuit without dry friction; B for the pump's flow, V_p n x/x_max.",
     )
 
 

@@ -5,7 +5,7 @@ import math
 import control
 import numpy as np
 
-from ars_mujoco.analysis.linearization import state_matrices
+from ars_mujoco.analysis.linearization import pump_control
 from ars_mujoco.analysis.loop import RPM
 from ars_mujoco.analysis.margins import FASTEST, POINTS, bandwidth
 from ars_mujoco.analysis.parameter_box import TABLE_2
@@ -115,15 +115,14 @@ def bar_angle(evidence: Evidence) -> Finding:
 
 @GROUP.claim("Table 1", "The servo valve's -3 dB point at +-10 % stroke is at 420 rad/s (65 Hz).")
 def servo_valve(evidence: Evidence) -> Finding:
-    A, _ = state_matrices(evidence.loop)
-    omega = _bandwidth(A[:2, :2], np.array([[0.0], [-A[1, 0]]]), output=0)
-    return _frequency(evidence, VALVE, omega, amplitude=0.10)
+    A = pump_control(evidence.loop).A[:2, :2]  # spool and its rate, whose command acts as the spool itself does
+    valve = control.ss(A, [[0.0], [-A[1, 0]]], [[1.0, 0.0]], 0.0)
+    return _frequency(evidence, VALVE, corner_frequency(valve), amplitude=0.10)
 
 
 @GROUP.claim("Table 1", "The servo pump's -3 dB point at +-25 % stroke is at 280 rad/s (45 Hz).")
 def servo_pump(evidence: Evidence) -> Finding:
-    A, B = state_matrices(evidence.loop)
-    omega = _bandwidth(A[:3, :3], B[:3], output=2)
+    omega = corner_frequency(pump_control(evidence.loop))
     circuit = evidence.loop.circuit
     valve_amplitude = 0.25 * float(circuit.swash_plate_loop.gain / circuit.swash_plate.max_rate)
     return _frequency(evidence, SERVO_PUMP, omega, valve_amplitude)
@@ -151,10 +150,9 @@ def _frequency(evidence: Evidence, paper: tuple[float, float], omega: float, amp
     )
 
 
-def _bandwidth(A: np.ndarray, B: np.ndarray, output: int) -> float:
-    """-3 dB point (rad/s) of one state of a linear system."""
+def corner_frequency(system: control.LTI) -> float:
+    """-3 dB point (rad/s) of a system."""
     omega = np.geomspace(1.0, FASTEST, POINTS)
-    system = control.ss(A, B, np.eye(len(A))[[output]], 0.0)
     return 2.0 * math.pi * bandwidth(omega, system(1j * omega), float(control.dcgain(system)))
 
 
