@@ -3,8 +3,12 @@
 Pressure feedback damps the hydraulic poles by a flow that goes against the pressure. The flow comes through the pump
 control, and how far that lags behind at the hydraulic frequency decides what it does: it damps up to 90 deg, and from
 there to 270 deg it does the opposite. On the stabilizer the lag is 228 deg; on a robot's joint, with the same pump
-control and slower hydraulics, it is 18 deg. A sign turned round would suit the stabilizer's lag, at the gain, the phase
-and the hydraulic frequency that it is tuned for.
+control and slower hydraulics, it is 18 deg. A sign turned round would suit the stabilizer's lag and damps its motor
+while that moves; but dry friction holds the motor at every turn, and there it drives the pressure up. So a feedback
+counts by the lesser damping of the two, moving and held.
+
+What bandwidth pressure feedback gives the stabilizer has another reason: its bar's spring makes the pressure follow the
+angle, and the high-pass of an angle is a lead. Without the spring the gain is gone.
 
 The second-order compensator cancels the hydraulic poles in the command's way. It damps nothing: they are still there,
 and answer to a load as before.
@@ -67,9 +71,20 @@ def pole_compensator(
     return _digital(control.tf(zeros, poles), frequency, sample_time)
 
 
-def behind_unit(loop: Loop, sample_time: float = 0.0, delay: float = 0.0) -> control.StateSpace:
-    """From the unit's stroke command (1) to angle (rad) and pressure (Pa); times in s, continuous where they are 0."""
-    return sampled(actuator(loop), sample_time, delay) if sample_time else actuator(loop)
+def behind_unit(
+    loop: Loop, sample_time: float = 0.0, delay: float = 0.0, dry_friction: bool = False
+) -> control.StateSpace:
+    """From the unit's stroke command (1) to angle (rad) and pressure (Pa); times in s, continuous where they are 0.
+
+    With dry friction the motor is as good as held.
+    """
+    system = actuator(loop, dry_friction)
+    return sampled(system, sample_time, delay) if sample_time else system
+
+
+def moving_and_held(loop: Loop, sample_time: float = 0.0, delay: float = 0.0) -> list[control.StateSpace]:
+    """`behind_unit` without and with dry friction."""
+    return [behind_unit(loop, sample_time, delay, dry_friction) for dry_friction in (False, True)]
 
 
 def fed_back(system: control.StateSpace, feedback: control.TransferFunction) -> control.StateSpace:
@@ -256,7 +271,7 @@ def _actuator(loop: Loop) -> dict[str, Any]:
 
 def _row(loop: Loop, sample_time: float, delay: float) -> dict[str, Any]:
     """What a timing allows; without dampings and compensator where it samples too slowly for the hydraulic poles."""
-    system = behind_unit(loop, sample_time, delay)
+    system, both = behind_unit(loop, sample_time, delay), moving_and_held(loop, sample_time, delay)
     is_seen = hydraulic_pair(loop)[0] * sample_time < math.pi
     gains, corners = settings(loop)
     without = most_bandwidth(loop, system, gains[:1], corners[:1])
@@ -265,7 +280,7 @@ def _row(loop: Loop, sample_time: float, delay: float) -> dict[str, Any]:
         "delay": delay,
         "lag": lag(loop, sample_time, delay),
         "without": {name: without[name] for name in ("bandwidth", "loop_gain")},
-        **{name: most_damping([system], *settings(loop, sign)) if is_seen else None for name, sign in SIGNS.items()},
+        **{name: most_damping(both, *settings(loop, sign)) if is_seen else None for name, sign in SIGNS.items()},
         "pressure_feedback": most_bandwidth(loop, system, gains[::2], corners),
         "compensator": compensated(loop, system) if is_seen else None,
     }
@@ -274,7 +289,7 @@ def _row(loop: Loop, sample_time: float, delay: float) -> dict[str, Any]:
 def _all_corners(loop: Loop, sample_time: float, delay: float) -> dict[str, Any]:
     """The pressure feedback that does most for the least damped corner of Table 2's plant."""
     loops = [loop.at(point) for point in grid(PLANT)]
-    systems = [behind_unit(each, sample_time, delay) for each in loops]
+    systems = [system for each in loops for system in moving_and_held(each, sample_time, delay)]
     found = {name: most_damping(systems, *settings(loop, sign)) for name, sign in SIGNS.items()}
     without = min(hydraulic_pair(each)[1] for each in loops)
     return {"sample_time": sample_time, "delay": delay, "without": {"damping": without}} | found
@@ -289,7 +304,7 @@ def _over_ratio(loop: Loop) -> dict[str, Any]:
         "own_ratio": pace(loop) / frequency,
         "lag": [lag(each) for each in paced],
         **{
-            name: [most_damping([actuator(each)], *settings(loop, sign))["damping"] for each in paced]
+            name: [most_damping(moving_and_held(each), *settings(loop, sign))["damping"] for each in paced]
             for name, sign in SIGNS.items()
         },
     }
