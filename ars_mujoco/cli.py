@@ -226,6 +226,30 @@ def analyze(
     print(f"Figures and numbers: {folder}")
 
 
+@app.command()
+def reproduce(
+    out: Annotated[Path | None, typer.Option(help="Folder of the results; else runs/reproduce.")] = None,
+    as_json: Json = False,
+) -> None:
+    """The paper's claims, each held against the running code: one page with figures, and the numbers."""
+    with _extra("reproduce"):
+        from ars_mujoco.reproduce import reproduce as claims
+        from ars_mujoco.reproduce.evidence import Evidence
+    folder = out or RUNS / "reproduce"
+    with _progress() as progress:
+        numbers = claims.reproduce(Evidence(), folder, progress)
+    if as_json:
+        _print_json({"folder": str(folder), **{key: numbers[key] for key in numbers if key != "analyses"}})
+        return
+    for group in numbers["groups"]:
+        rows = [
+            {"claim": each["text"], "ours": each["told"], "verdict": " ".join(filter(None, each["verdict"].values()))}
+            for each in group["claims"]
+        ]
+        _print_table(group["title"], rows)
+    print(f"Page: {folder / claims.HTML}\nNumbers: {folder / claims.JSON}")
+
+
 @app.command("fit-losses")
 def fit_losses(
     data: Annotated[
@@ -379,4 +403,4 @@ def _print_table(title: str, rows: list[dict[str, str]]) -> None:
         table.add_column(column, overflow="fold")
     for row in rows:
         table.add_row(*map(str, row.values()))
-    Console(width=None if sys.stdout.isatty() else 240).print(table)
+    Console(width=None if sys.stdout.isatty() else 240, markup=False).print(table)
