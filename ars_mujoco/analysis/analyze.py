@@ -59,6 +59,8 @@ def left_out(loop: Loop) -> dict[str, str]:
         reasons |= {"hydraulic_poles": NO_BOX, "stable_region": NO_BOX}
     else:
         reasons["line_inertance"] = "needs lines with a mass: circuit full, as in pump_controlled_full"
+    if loop.is_detailed:
+        reasons["compensators"] = "needs the hydraulic pole pair alone: circuit reduced, pump control third_order"
     if loop.circuit.control_cylinder.mass == 0.0:
         reasons["pump_control_stages"] = "needs the actuator's oil, metering_edge and control_cylinder"
     return reasons
