@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ars_mujoco.analysis import (
+    compensators,
     frequency_response,
     hydraulic_poles,
     line_inertance,
@@ -32,6 +33,7 @@ ANALYSES = {
         frequency_response,
         stable_region,
         steady_state,
+        compensators,
         pump_control_stages,
         line_inertance,
     )
@@ -57,6 +59,8 @@ def left_out(loop: Loop) -> dict[str, str]:
         reasons |= {"hydraulic_poles": NO_BOX, "stable_region": NO_BOX}
     else:
         reasons["line_inertance"] = "needs lines with a mass: circuit full, as in pump_controlled_full"
+    if loop.is_detailed:
+        reasons["compensators"] = "needs the hydraulic pole pair alone: circuit reduced, pump control third_order"
     if loop.circuit.control_cylinder.mass == 0.0:
         reasons["pump_control_stages"] = "needs the actuator's oil, metering_edge and control_cylinder"
     return reasons

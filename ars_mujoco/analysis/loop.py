@@ -118,6 +118,7 @@ class Loop:
 def loop_of(inputs: Inputs, axle: str = "front") -> Loop:
     """The loop of a bench run's `inputs`, with the circuit of an axle ("front" or "rear") of its actuator.
 
+    It is the cascade alone: the controller's own compensators, if any, are left out.
     Raises InputError where the actuator has no loop.
     """
     actuator, controller = inputs.actuator.value, inputs.controller.value

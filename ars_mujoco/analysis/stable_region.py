@@ -20,12 +20,11 @@ from matplotlib.figure import Figure
 from ars_mujoco.analysis.figure import ACCENT, DARK, DASHES, LIGHT, MIDDLE_GREY, SHADES, label
 from ars_mujoco.analysis.linearization import actuator
 from ars_mujoco.analysis.loop import RPM, Loop
-from ars_mujoco.analysis.margins import WANTED
+from ars_mujoco.analysis.margins import SCHEDULES, WANTED
 from ars_mujoco.analysis.parameter_box import MIDDLE, PLANT, TABLE_2, Point, grid
 
 BANDWIDTH = 12.0  # Hz, which the paper asks for (Darling et al. 1992)
 SPEEDS = np.linspace(*TABLE_2["speed"], 25)  # rad/s
-SCHEDULES = {"fixed": 0.0, "scheduled": 1.0}
 SHARES = np.linspace(0.0, 1.0, 13)  # of a parameter's range
 BOUNDS = ("stable", "gain_margin", "phase_margin", "wanted_bandwidth")
 UNITS = {"speed": "rad/s", "leakage": "m^3/s/Pa", "capacitance": "m^3/Pa", "inertia": "kg m^2",
@@ -58,14 +57,10 @@ def critical_gain(loop: Loop) -> float:
 
 def gain_for_bandwidth(system: control.StateSpace, frequency: float) -> float:
     """Least gain at which the closed loop's -3 dB point is at `frequency` (Hz): a quadratic equation in the gain."""
-    p, at_rest = complex(system(2j * math.pi * frequency)), float(control.dcgain(system))
+    p, softness = complex(system(2j * math.pi * frequency)), 1.0 / float(control.dcgain(system))  # 0 without a spring
     size = abs(p) ** 2
-    # 2 |K p / (1 + K p)|^2 = (K at_rest / (1 + K at_rest))^2
-    square, line, constant = (
-        size * at_rest**2,
-        4.0 * size * at_rest - 2.0 * at_rest**2 * p.real,
-        2.0 * size - at_rest**2,
-    )
+    # 2 |K p / (1 + K p)|^2 = (K / (K + softness))^2
+    square, line, constant = size, 4.0 * size * softness - 2.0 * p.real, 2.0 * size * softness**2 - 1.0
     return float(np.roots([square, line, constant]).real.max())
 
 

@@ -7,7 +7,8 @@
 THIRD_ORDER is eqs. 18 to 20: the valve's lag and an integrator. REDUCED adds the piston's mass and forces under one
 load pressure (eq. 16), FULL both chambers and every edge (eqs. 1 to 15). The cylinder's own dynamics reach 8e4 1/s but
 last a fraction of a millisecond, so one linearly implicit step (Rodas3: third order, L-stable, stiffly accurate; Sandu
-and others 1997) takes them over a whole substep of the circuit.
+and others 1997) takes them over a whole substep of the circuit. Where they do matter, as the piston meets its stop, the
+step's own estimate of its error tells, and the substep is divided.
 """
 
 from ars_mujoco.control.swash_plate_loop import valve_command
@@ -30,6 +31,9 @@ from ars_mujoco.kernel import kernel
 
 THIRD_ORDER, REDUCED, FULL = 0.0, 1.0, 2.0
 
+TOLERANCE = 0.1  # error of a chamber's pressure, over that pressure, above which a step is divided
+MOST_PARTS = 256
+
 
 @kernel
 def advance_pump_control(circuit, detail, state, command, pressure, h: float):
@@ -41,7 +45,7 @@ def advance_pump_control(circuit, detail, state, command, pressure, h: float):
     """
     if detail.stage == THIRD_ORDER:
         return _third_order_step(circuit, state, command, h)
-    return _implicit_step(circuit, detail, state, command, pressure, h)
+    return _implicit_steps(circuit, detail, state, command, pressure, h)
 
 
 @kernel
@@ -163,8 +167,45 @@ def _third_order_rates(circuit, state, h, k, command):
 
 
 @kernel
+def _implicit_steps(circuit, detail, state, command, pressure, h):
+    # equal parts of the substep, twice as many until the chambers' pressures are right in each
+    parts = 1
+    while True:
+        end, right, part = state, True, 1.0 / parts
+        for i in range(parts):
+            asked, load = _piece(command, h, i * part, (i + 1) * part), _piece(pressure, h, i * part, (i + 1) * part)
+            end, error = _implicit_step(circuit, detail, end, asked, load, part * h)
+            right = right and _is_right(circuit, detail, end, error)
+        if right or parts >= MOST_PARTS:
+            return end
+        parts *= 2
+
+
+@kernel
+def _piece(course, h, first, last):
+    # a (start, end, rate at the start) over a substep `h`, between two shares of it
+    start, end, rate = course
+    straight = h * rate
+    bend = end - start - straight
+    return (
+        start + first * (straight + first * bend),
+        start + last * (straight + last * bend),
+        rate + 2.0 * first * bend / h,
+    )
+
+
+@kernel
+def _is_right(circuit, detail, end, error):
+    # at the reduced stage the load pressure may be zero; it is judged by the supply's
+    if detail.stage == FULL:
+        return abs(error[2]) < TOLERANCE * end[2] and abs(error[3]) < TOLERANCE * end[3]
+    return abs(error[2]) < TOLERANCE * circuit.metering_edge.supply_pressure
+
+
+@kernel
 def _implicit_step(circuit, detail, state, command, pressure, h):
-    # Rodas3 in the form that needs no product with the Jacobian; its second stage reuses the first evaluation
+    # Rodas3 in the form that needs no product with the Jacobian; its second stage reuses the first evaluation, and its
+    # last is the estimate of the error
     start = cylinder_rates(circuit, detail, state, command[0], pressure[0])
     first = start[0]
     f_t = _drift(circuit, start, command, pressure)
@@ -177,7 +218,7 @@ def _implicit_step(circuit, detail, state, command, pressure, h):
     fourth = _sum(third, k3, 1.0)
     f4 = cylinder_rates(circuit, detail, fourth, command[1], pressure[1])[0]
     k4 = _solve(factors, _sum(_sum(_sum(f4, k1, 1.0 / h), k2, -1.0 / h), k3, -8.0 / (3.0 * h)))
-    return _sum(fourth, k4, 1.0)
+    return _sum(fourth, k4, 1.0), k4
 
 
 @kernel

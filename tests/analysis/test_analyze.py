@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from ars_mujoco import cli
-from ars_mujoco.analysis import frequency_response, hydraulic_poles, margins, stable_region
+from ars_mujoco.analysis import compensators, frequency_response, hydraulic_poles, margins, stable_region
 from ars_mujoco.analysis.analyze import ANALYSES, left_out, read_analyzed
 from ars_mujoco.analysis.loop import loop_of
 from ars_mujoco.analysis.parameter_box import TABLE_2, grid
@@ -25,6 +25,7 @@ def analyze(monkeypatch, tmp_path):
 
 def test_it_writes_numbers_and_figures_of_every_analysis(analyze, monkeypatch, tmp_path):
     monkeypatch.setattr(frequency_response, "FREQUENCIES", frequency_response.FREQUENCIES[10::10])
+    monkeypatch.setattr(compensators, "CORNERS", compensators.CORNERS[::4])
     printed = json.loads(analyze("--set", "controller.loop.gain=30 1/rad", "--json"))
     folder = tmp_path / printed["folder"]
     assert {path.name for path in folder.iterdir()} == {
