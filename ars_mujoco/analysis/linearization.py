@@ -38,7 +38,7 @@ OUTPUTS = ["angle", "pressure"]
 # small part of w_s
 NUDGES = np.array([1e-3, 1e-2, 1e3, 1e3, 1e-3, 1e-6] + [1.0] * FLOW_A + [1e-9] * (GALLERY - FLOW_A) + [1.0, 1e-4, 1e-6])
 COMMAND_NUDGE = 1e-3
-LIFT = 1e2  # Pa, by which a line is lifted for its check valve to be shut; at rest it is open by a tenth of that
+LIFT = 1e2  # Pa, by which a line is lifted for its check valve to be shut; at rest it is open by a fifth of that
 
 
 def plant_states(loop: Loop) -> dict[str, int]:

@@ -16,7 +16,7 @@ def started(loop: Loop, step: float) -> tuple[np.record, np.record, np.record]:
     """(axle, state, work) records for `follow`: the loop's circuit, divided for steps of `step` (s), and at rest."""
     axle = loop.axle
     if loop.is_detailed:
-        axle.kind, axle.substeps = DETAILED, detailed_substeps(axle, step)
+        axle.kind, axle.substeps = DETAILED, detailed_substeps(axle, step, bypassed=False)
     else:
         axle.kind, axle.substeps = PUMP_CONTROLLED, substeps(axle.circuit, axle.stiffness, step)
     return axle, loop.at_rest(), np.zeros(1, WORK).view(np.recarray)[0]
