@@ -32,11 +32,10 @@ class Cost:
     ratio_quartiles: tuple[float, float]
     real_time_factor: float
     rounds: int
-    recording_ratio: float  # a whole run that writes its .rrd over one that does not
 
 
 def measure(simulation: Simulation, rounds: int = 60) -> Cost:
-    """The cost of a step of `simulation`, from `rounds` interleaved rounds, and of writing its recording."""
+    """The cost of a step of `simulation`, from `rounds` interleaved rounds."""
     model, data = simulation.model, simulation.start()
     sampler = Sampler(simulation.rig, model, data, empty_recording(simulation))
     spec = mujoco.mjtState.mjSTATE_INTEGRATION
@@ -64,11 +63,10 @@ def measure(simulation: Simulation, rounds: int = 60) -> Cost:
         closed_loop=float(closed_step), bare=float(bare_step), ratio=float(np.median(ratios)),
         ratio_quartiles=tuple(float(q) for q in np.quantile(ratios, (0.25, 0.75))),
         real_time_factor=float(model.opt.timestep / closed_step), rounds=rounds,
-        recording_ratio=_recording_ratio(simulation),
     )  # fmt: skip
 
 
-def _recording_ratio(simulation: Simulation) -> float:
+def recording_ratio(simulation: Simulation) -> float:
     """Median over interleaved whole runs of the time with the .rrd written and closed, over the time without."""
     recorded, plain = [], []
 

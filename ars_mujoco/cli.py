@@ -23,6 +23,15 @@ app = typer.Typer(
 
 RUNS = Path("runs")  # folder of results, unless --out names another
 BENCH_CYCLE = "s_curve_120kmh"  # the sedan with everything on it
+CIRCUITS = {"reduced": "pump_controlled", "full": "pump_controlled_full"}  # shipped actuators
+STAGES = ("third_order", "reduced", "full")  # of pump control
+
+
+class Axle(StrEnum):
+    """Whose circuit `ars analyze` is of."""
+
+    FRONT = "front"
+    REAR = "rear"
 
 
 class Listing(StrEnum):
@@ -152,26 +161,43 @@ def view(
 
 @app.command()
 def bench(as_json: Json = False) -> None:
-    """Cost of a closed-loop step over a bare mj_step of the same model, and the real-time factor."""
+    """Cost of a closed-loop step over a bare mj_step of the same model, at every stage of the hydraulics."""
     from dataclasses import asdict
 
-    from ars_mujoco.benchmark import measure
+    from ars_mujoco.benchmark import measure, recording_ratio
     from ars_mujoco.inputs import read_inputs
     from ars_mujoco.study import simulation_of
 
-    cost = measure(simulation_of(read_inputs(BENCH_CYCLE)))
+    rows = []
+    for circuit, actuator in CIRCUITS.items():
+        for stage in STAGES:
+            inputs = read_inputs(BENCH_CYCLE, actuator, settings=[f"actuator.pump_control={stage}"])
+            rows.append({"circuit": circuit, "pump_control": stage, **asdict(measure(simulation_of(inputs)))})
+    recording = recording_ratio(simulation_of(read_inputs(BENCH_CYCLE)))
     if as_json:
-        _print_json({"cycle": BENCH_CYCLE, **asdict(cost)})
+        _print_json({"cycle": BENCH_CYCLE, "stages": rows, "recording_ratio": recording})
         return
-    print(f"closed loop  {1e6 * cost.closed_loop:.2f} us a step, {cost.real_time_factor:.0f} times real time")
-    print(f"bare step    {1e6 * cost.bare:.2f} us")
-    print("ratio        {:.3f}, quartiles {:.3f} to {:.3f}".format(cost.ratio, *cost.ratio_quartiles))
-    print(f"recording    {cost.recording_ratio:.3f} times the run without its .rrd")
+    _print_table(BENCH_CYCLE, [_cost(row) for row in rows])
+    print(f"A run that writes its .rrd takes {recording:.3f} times one that does not (reduced, third_order).")
+
+
+def _cost(row: dict[str, Any]) -> dict[str, str]:
+    """A stage of the benchmark in the table."""
+    return {
+        "circuit": row["circuit"],
+        "pump control": row["pump_control"],
+        "closed loop": f"{1e6 * row['closed_loop']:.2f} us",
+        "bare step": f"{1e6 * row['bare']:.2f} us",
+        "ratio": f"{row['ratio']:.3f}",
+        "quartiles": "{:.3f} to {:.3f}".format(*row["ratio_quartiles"]),
+        "times real time": f"{row['real_time_factor']:.0f}",
+    }
 
 
 @app.command()
 def analyze(
     actuator: Annotated[str | None, typer.Option(help="Name or path; else pump_controlled.")] = None,
+    axle: Annotated[Axle, typer.Option(help="Whose circuit.")] = Axle.FRONT,
     controller: Annotated[str | None, typer.Option(help="Name or path; else verification.")] = None,
     settings: Annotated[
         list[str] | None,
@@ -180,22 +206,82 @@ def analyze(
     out: Annotated[Path | None, typer.Option(help="Folder of the results; else runs/analyze.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Linear theory of the front actuator on the bench: poles, margins, responses and the gain's stable region."""
-    try:
+    """Linear theory of an axle's actuator on the bench: poles, margins, responses and the gain's stable region."""
+    with _extra("analyze"):
         from ars_mujoco.analysis import analyze as analysis
-    except ModuleNotFoundError as missing:
-        extra = "pip install 'ars_mujoco[analysis]'"
-        raise InputError(f"ars analyze needs the package '{missing.name}'; it comes with {extra}") from None
+        from ars_mujoco.analysis.loop import loop_of
     inputs = analysis.read_analyzed(actuator, controller, settings or [])
     folder = out or RUNS / "analyze"
+    loop = loop_of(inputs, axle)
+    left_out = analysis.left_out(loop)
     with _progress() as progress:
-        results = analysis.analyze(inputs, folder, progress)
+        results = analysis.analyze(loop, analysis.named(inputs, axle), folder, progress)
     if as_json:
-        _print_json({"folder": str(folder), "analyses": results})
+        _print_json({"folder": str(folder), "analyses": results, "left_out": left_out})
         return
     rows = [{key: row[key] for key in ("quantity", "value", "paper")} for row in analysis.headlines(results)]
-    _print_table(f"{inputs.actuator.name} on the bench, {inputs.controller.name}", rows)
+    _print_table(f"{inputs.actuator.name} {axle} on the bench, {inputs.controller.name}", rows)
+    for reason in dict.fromkeys(left_out.values()):
+        print(f"Left out: {', '.join(name for name in left_out if left_out[name] == reason)}: {reason}")
     print(f"Figures and numbers: {folder}")
+
+
+@app.command()
+def reproduce(
+    out: Annotated[Path | None, typer.Option(help="Folder of the results; else runs/reproduce.")] = None,
+    as_json: Json = False,
+) -> None:
+    """The paper's claims, each held against the running code: one page with figures, and the numbers."""
+    with _extra("reproduce"):
+        from ars_mujoco.reproduce import reproduce as claims
+        from ars_mujoco.reproduce.evidence import Evidence
+    folder = out or RUNS / "reproduce"
+    with _progress() as progress:
+        numbers = claims.reproduce(Evidence(), folder, progress)
+    if as_json:
+        _print_json({"folder": str(folder), **{key: numbers[key] for key in numbers if key != "analyses"}})
+        return
+    for group in numbers["groups"]:
+        rows = [
+            {"claim": each["text"], "ours": each["told"], "verdict": " ".join(filter(None, each["verdict"].values()))}
+            for each in group["claims"]
+        ]
+        _print_table(group["title"], rows)
+    print(f"Page: {folder / claims.HTML}\nNumbers: {folder / claims.JSON}")
+
+
+@app.command("fit-losses")
+def fit_losses(
+    data: Annotated[
+        Path,
+        typer.Argument(
+            metavar="DATA.csv",
+            help="Measured points; the header names speed, pressure, displacement (or stroke), flow and torque with "
+            "units: 'speed (rpm),pressure (bar),...'.",
+        ),
+    ],
+    orders: Annotated[tuple[int, int, int], typer.Option(help="Of stroke, speed and pressure.", metavar="P Q R")],
+    displacement: Annotated[
+        str | None, typer.Option(help="Of the full stroke, such as '1.8 cm^3/rev'; else the largest measured.")
+    ] = None,
+    scale_to: Annotated[
+        str | None, typer.Option(help="Displacement of a similar pump that losses.yaml is to be for.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder of the results; else runs/fit_losses.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Fit a pump's flow and torque loss to measured points: a block for an actuator's file, numbers and a figure."""
+    with _extra("fit-losses"):
+        from ars_mujoco.analysis import fit_losses as fitting
+    folder = out or RUNS / fitting.NAME
+    result = fitting.fit_losses(data, orders, folder, displacement, scale_to)
+    if as_json:
+        _print_json({"folder": str(folder), **result})
+        return
+    _print_table(f"{data.name}: {result['points']} points", fitting.rows(result))
+    for remark in fitting.remarks(result):
+        print(remark)
+    print(f"For an actuator's file: {folder / 'losses.yaml'}")
 
 
 def _study(cycle, actuators, vehicle, controller, settings, out, as_json) -> None:
@@ -261,6 +347,16 @@ def _channels() -> list[dict[str, str]]:
 
 
 @contextmanager
+def _extra(command: str) -> Iterator[None]:
+    """Say what to install where a command needs more than a plain installation brings."""
+    try:
+        yield
+    except ModuleNotFoundError as missing:
+        extra = "pip install 'ars_mujoco[analysis]'"
+        raise InputError(f"ars {command} needs the package '{missing.name}'; it comes with {extra}") from None
+
+
+@contextmanager
 def _warnings_in_one_line() -> Iterator[None]:
     """Whatever warns, numpy too, is one line on stderr, and the same line only once."""
     told = set()
@@ -307,4 +403,4 @@ def _print_table(title: str, rows: list[dict[str, str]]) -> None:
         table.add_column(column, overflow="fold")
     for row in rows:
         table.add_row(*map(str, row.values()))
-    Console(width=None if sys.stdout.isatty() else 240).print(table)
+    Console(width=None if sys.stdout.isatty() else 240, markup=False).print(table)

@@ -126,6 +126,15 @@ Expectations = Annotated[
 ]
 
 
+class Valves(Parameters):
+    """Commanded openings of a full circuit's switching valves over time, 0 shut and 1 open."""
+
+    front_bypass: KnotsOf("1", ge=0, le=1) = KnotsOf("1", ge=0, le=1)(knots=[("0 s", 0)])
+    front_fail_safe: KnotsOf("1", ge=0, le=1) = KnotsOf("1", ge=0, le=1)(knots=[("0 s", 1)])
+    rear_bypass: KnotsOf("1", ge=0, le=1) = KnotsOf("1", ge=0, le=1)(knots=[("0 s", 0)])
+    rear_fail_safe: KnotsOf("1", ge=0, le=1) = KnotsOf("1", ge=0, le=1)(knots=[("0 s", 1)])
+
+
 class Cycle(Parameters):
     """A cycle's file. Actuator, controller and vehicle are names or paths; the command line may replace them."""
 
@@ -136,6 +145,7 @@ class Cycle(Parameters):
     manoeuvre: Manoeuvre
     speed: Quantity("m/s", gt=0) | None = Field(None, validate_default=True)  # initial and held; of the sedan
     road: Road = Road()
+    valves: Valves = Valves()
     vehicle: str = Field("", validate_default=True)  # else the rig's own
     actuator: str = "pump_controlled"
     controller: str = Field("", validate_default=True)  # else verification on the bench, cascade elsewhere

@@ -35,6 +35,12 @@ CONDITIONS = (
         for axle in AXLES
     ),
     *(
+        Condition(
+            f"{axle}.pump.extrapolation", lambda x: x > 0.0, "WARN", f"the {axle} pump leaves the range of its losses"
+        )
+        for axle in AXLES
+    ),
+    *(
         Condition(f"{axle}.relief.power", lambda power: power > 0.0, "WARN", f"the {axle} relief valve opens")
         for axle in AXLES
     ),

@@ -195,7 +195,7 @@ class Document:
                 keys, block, value = [*keys, key], value, value[key]
         if error["type"] == "missing":
             keys, block, value = [*keys, last], value, None
-        if error["type"].startswith("union_tag"):
+        if error["type"].startswith("union_tag") and isinstance(value, dict):
             kind = error["ctx"]["discriminator"].strip("'")
             keys, block, value = [*keys, kind], value, value.get(kind)
         return tuple(keys), block, value
@@ -216,7 +216,7 @@ def _message(error: dict[str, Any], keys: Keys, value: Any, schema: type | None)
             unknown = f"{written}unknown{did_you_mean(value, valid)}" if written else "is empty"
             return unknown + _listed(valid)
         case "union_tag_not_found":
-            return "is missing"
+            return written + NEEDS["model_type"] if written else "is missing"
         case _ if value is None:
             return "is empty" + _listed_units(schema, keys[-1])
         case "too_long":

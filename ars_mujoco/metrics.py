@@ -13,6 +13,7 @@ from ars_mujoco.control.target import target_roll
 from ars_mujoco.recording.recording import Recording
 
 G = 9.80665  # m/s^2
+BAR = 1e5  # Pa
 
 LEAST_REFERENCE_ROLL = 0.3  # deg; a reference that rolls less gives no factor
 ROLL_RESOLUTION = 0.05  # deg; a run that rolls less has a factor of "at least"
@@ -306,6 +307,14 @@ def energy_audit_error(run: Run) -> Value:
     return Value(float(astray / max(throughput, LEAST_THROUGHPUT)), note=note)
 
 
+@metric("s", "time that pumps spend outside the range that their losses were given for")
+def loss_extrapolation(run: Run) -> Value:
+    outside = {axle: _column(run.recording, f"{axle}.pump.extrapolation") for axle in _axles(run)}
+    notes = [_farthest(run, axle, far) for axle, far in outside.items() if np.any(far > 0.0)]
+    rows = np.any([far > 0.0 for far in outside.values()], axis=0)
+    return Value(float(np.sum(np.diff(run.recording.time)[rows[:-1]])), note="; ".join(notes))
+
+
 @metric("1", "simulated time over wall time")
 def real_time_factor(run: Run) -> float:
     if run.wall_time is None:
@@ -313,6 +322,16 @@ def real_time_factor(run: Run) -> float:
     if not run.recording.time.size:
         raise NotMeasurableError("nothing was recorded")
     return (run.recording.time[-1] - run.recording.time[0]) / run.wall_time
+
+
+def _farthest(run: Run, axle: str, far: np.ndarray) -> str:
+    """When the pump of an axle first leaves the range of its losses, and where it is farthest outside."""
+    time, i = run.recording.time, int(np.argmax(far))
+    stroke, pressure = (abs(run.recording[f"{axle}.{name}"][i]) for name in ("pump.stroke", "motor.pressure"))
+    return (
+        f"the losses of the {axle} pump are extrapolated from {time[far > 0.0][0]:.3f} s on, at most by "
+        f"{100 * far[i]:.2g} % at {time[i]:.3f} s (stroke {100 * stroke:.1f} %, {pressure / BAR:.1f} bar)"
+    )
 
 
 def _axles(run: Run) -> list[str]:

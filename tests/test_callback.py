@@ -19,6 +19,13 @@ from ars_mujoco.simulation import check, empty_recording
 S_CURVE, ROLL_PLANE, BENCH = "s_curve_120kmh", "roll_plane_step", "bench_s_curve"
 MIDDLE = 2.5  # s into a cycle, where everything moves
 ON = 300  # steps driven on from there
+CASES = [
+    (S_CURVE, ()),
+    (ROLL_PLANE, ()),
+    (BENCH, ()),
+    (S_CURVE, ("actuator.drive.kind=engine",)),
+    (BENCH, ("actuator.drive.kind=electric",)),
+]
 INTEGRATORS = ("mjINT_EULER", "mjINT_IMPLICIT", "mjINT_IMPLICITFAST")
 
 
@@ -100,9 +107,9 @@ def test_a_model_that_has_room_for_the_world_but_does_not_carry_it_is_refused():
 # ---- once a step
 
 
-@pytest.mark.parametrize("cycle", [S_CURVE, ROLL_PLANE, BENCH])
-def test_a_second_mj_forward_changes_nothing(cycle):
-    simulation = shipped.simulation(cycle)
+@pytest.mark.parametrize(("cycle", "settings"), CASES)
+def test_a_second_mj_forward_changes_nothing(cycle, settings):
+    simulation = shipped.simulation(cycle, None, *settings)
     data = shipped.driven(simulation, 0.54)
     outputs = ("userdata", "xfrc_applied", "qfrc_applied", "ctrl", "mocap_pos")
     with installed(simulation.rig, simulation.model, data):
@@ -179,9 +186,11 @@ def test_a_run_restored_in_its_middle_ends_identical(integrator, sedan):
         ("controller.unit.sample_time=5 ms",),
         ("controller.unit.sample_time=0 s", "controller.unit.delay=3 ms"),
         ("controller.reference.trim.rate=1 1/s",),
+        ("actuator.drive.kind=engine",),
+        ("actuator.drive.kind=electric",),
     ],
 )
-def test_so_does_a_run_with_another_control_unit(settings):
+def test_so_does_a_run_with_another_control_unit_or_drive(settings):
     simulation = shipped.simulation(S_CURVE, None, *settings)
     data = shipped.driven(simulation, 0.902)  # between two samples of 5 ms
     state = shipped.state_of(simulation.model, data)
@@ -290,9 +299,9 @@ np.save(f"{folder}/interpreted.npy", worlds)
 """
 
 
-@pytest.mark.parametrize("cycle", [S_CURVE, ROLL_PLANE, BENCH])
-def test_the_interpreted_twin_agrees_to_1e_12(cycle, tmp_path, monkeypatch):
-    simulation, steps = shipped.simulation(cycle), 200
+@pytest.mark.parametrize(("cycle", "settings"), CASES)
+def test_the_interpreted_twin_agrees_to_1e_12(cycle, settings, tmp_path, monkeypatch):
+    simulation, steps = shipped.simulation(cycle, None, *settings), 200
     data = shipped.driven(simulation, 0.54)
     mujoco.mj_saveModel(simulation.model, str(tmp_path / "model.mjb"))
     np.save(tmp_path / "state.npy", shipped.state_of(simulation.model, data))

@@ -5,7 +5,10 @@ import sys
 
 import pytest
 
-KERNELS = ("hydraulics.reduced_circuit", "control.bar_angle_loop", "control.accelerometer", "tires.tire", "driver")
+KERNELS = (
+    "hydraulics.reduced_circuit", "hydraulics.drive", "control.bar_angle_loop", "control.accelerometer", "tires.tire",
+    "driver",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("kernel", KERNELS)

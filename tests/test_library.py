@@ -8,12 +8,19 @@ from ars_mujoco.errors import InputError
 
 def test_the_shipped_cycles_are_those_of_the_project():
     assert list(library.shipped("cycle")) == [
+        "bench_ends_free",
+        "bench_fail_safe",
+        "bench_recorded",
         "bench_s_curve",
+        "bench_sine",
         "bench_step_10deg",
         "bench_step_1deg",
+        "bench_sweep",
+        "robot_step",
         "roll_plane_step",
         "s_curve_120kmh",
         "single_wheel_bump",
+        "single_wheel_bump_decoupled",
         "steady_circle_iso4138",
         "step_steer_iso7401",
     ]
@@ -47,7 +54,8 @@ def test_an_unknown_name_is_answered_with_the_nearest_and_all():
     with pytest.raises(InputError) as error:
         library.find("actuator", "pasive")
     assert str(error.value) == (
-        "no actuator 'pasive'; did you mean 'passive'? shipped: locked, none, passive, pump_controlled"
+        "no actuator 'pasive'; did you mean 'passive'? shipped: locked, none, passive, pump_controlled, "
+        "pump_controlled_full, robot_joint"
     )
 
 
@@ -63,7 +71,7 @@ def test_whatever_is_no_file_is_answered_in_one_line(name, tmp_path, monkeypatch
     (tmp_path / "folder.yaml").mkdir()
     with pytest.raises(InputError) as error:
         library.find("vehicle", name)
-    assert str(error.value) == f"no vehicle '{name}'; shipped: bench, roll_plane, sedan"
+    assert str(error.value) == f"no vehicle '{name}'; shipped: bench, robot_joint, roll_plane, sedan"
 
 
 def test_a_folder_is_no_file(tmp_path):

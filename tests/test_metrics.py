@@ -11,8 +11,9 @@ WINDOW = (1.0, 9.0)
 TIME = np.linspace(0, 10, 10001)
 TARGET = ((0.0, 0.0), (0.3 * G, 0.0), (0.6 * G, np.radians(0.3)), (0.8 * G, np.radians(1.3)))
 FOUND_AGAIN = (
-    "oil", "bar", "inertia", "work",
+    "oil", "bar", "inertia", "oil_motion", "work",
     "pump_torque_loss", "pump_leakage", "motor_leakage", "relief", "friction", "capacitance",
+    "line", "check", "bypass", "tank_leakage", "charge_loss",
 )  # fmt: skip
 
 
@@ -44,12 +45,13 @@ def on_target(g: float, target=TARGET) -> float:
 
 
 def pumping(axles=("front",), astray: float = 0.0, scale: float = 1.0) -> Recording:
-    """Each axle's shaft draws 1000 `scale` J, gives 20 back, and all but `astray` J of each are found again."""
+    """Each axle draws 1000 `scale` J by its shaft and 50 for its charge, and all but `astray` J are found again."""
     grown = TIME / TIME[-1]
     signals = {}
     for axle in axles:
-        energies = dict.fromkeys(FOUND_AGAIN, 100.0 * scale)
-        energies |= {"shaft": 1000.0 * scale + astray, "throughput": 2000.0 * scale, "recovered": 20.0, "charge": 50.0}
+        energies = dict.fromkeys(FOUND_AGAIN, 1050.0 / len(FOUND_AGAIN) * scale)
+        energies |= {"shaft": 1000.0 * scale + astray, "charge": 50.0 * scale}
+        energies |= {"throughput": 2000.0 * scale, "recovered": 20.0}
         signals |= {f"{axle}__energy__{name}": 7.0 + energy * grown for name, energy in energies.items()}
         signals[f"{axle}__pump__shaft_power"] = 100.0 * np.sin(2 * np.pi * TIME)
     return recording(**signals)
@@ -246,3 +248,20 @@ def test_a_run_without_pump_channels_says_so():
 def test_the_real_time_factor_is_simulated_over_wall_time():
     assert values(swaying(1.0), wall_time=4.0)["real_time_factor"].value == pytest.approx(2.5)
     assert values(swaying(1.0))["real_time_factor"].value is None
+
+
+def test_extrapolated_losses_are_told_with_time_and_place():
+    time = np.linspace(0.0, 1.0, 1001)
+    far = np.clip(0.1 - np.abs(time - 0.3005), 0.0, None)
+    signals = {"pump__stroke": -0.5, "motor__pressure": -330e5, "energy__shaft": 0.0}
+    run = recording(
+        time, **{f"front__{name}": value for name, value in signals.items()}, front__pump__extrapolation=far
+    )
+    told = measure(Run(run, (0.0, 1.0)))["loss_extrapolation"]
+    assert told.value == pytest.approx(0.2)
+    assert told.note == (
+        "the losses of the front pump are extrapolated from 0.201 s on, at most by 10 % at 0.300 s "
+        "(stroke 50.0 %, 330.0 bar)"
+    )
+    inside = recording(time, front__energy__shaft=0.0, front__pump__extrapolation=0.0)
+    assert measure(Run(inside, (0.0, 1.0)))["loss_extrapolation"].value == 0.0

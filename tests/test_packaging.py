@@ -47,6 +47,7 @@ def test_the_shipped_files_are_found_away_from_the_checkout(installed, away):
     found = away(sys.executable, "-c", code).split()
     assert all(Path(path).is_relative_to(installed) for path in found)
     assert {"s_curve_120kmh", "sedan", "pump_controlled", "cascade"} <= {Path(path).stem for path in found}
+    assert Path(found[0]).with_name("bench_recorded.csv").is_file()
 
 
 def test_its_command_lists_what_is_shipped(installed, away):

@@ -19,6 +19,7 @@ COMMANDS = [
     for line in block.splitlines()
     if line.startswith("ars ")
 ]
+(POINTS,) = [block for language, block in BLOCKS if language == "csv"]
 LAW, PROGRAM = [block for language, block in BLOCKS if language == "python"]
 
 
@@ -28,6 +29,7 @@ def test_every_command_of_the_readme_runs(command, tmp_path, monkeypatch):
         pytest.skip("a benchmark is run by name: it wants an idle machine")
     monkeypatch.chdir(tmp_path)
     Path("my_controller.py").write_text(LAW)
+    Path("pump.csv").write_text(POINTS)
     result = CliRunner().invoke(app, shlex.split(command)[1:])
     assert result.exit_code == 0, result.output
 
@@ -50,6 +52,18 @@ def test_the_program_of_the_readme_runs(capsys):
     time, roll = map(float, capsys.readouterr().out.split())
     assert time == pytest.approx(5.0)
     assert 0.015 < roll < 0.03
+
+
+def test_the_inputs_of_the_bench_are_those_of_the_readme(tmp_path, monkeypatch):
+    from ars_mujoco.inputs import read_inputs
+
+    forms = dict(re.findall(r"^\| (\w+) \| `(\{.*?\})`", README, re.MULTILINE))
+    (header,) = re.findall(r"such as `(time.*?)`", README)
+    monkeypatch.chdir(tmp_path)
+    Path("travel.csv").write_text(f"{header}\n0,0\n1,20\n")
+    assert list(forms) == ["step", "sine", "sweep", "recorded"]
+    for form in forms.values():
+        read_inputs("bench_ends_free", settings=[f"manoeuvre.ends={form}"])
 
 
 def test_the_scripts_of_the_readme_exist_and_run_what_it_says():

@@ -67,7 +67,7 @@ def not_a_number_at_3_s(cycle: str):
     if cycle == "s_curve_120kmh":
         p.bump.side, p.bump.height, p.bump.length, p.bump.position = 1.0, np.nan, 1.0, 100.0
         return simulation
-    signal = p.acceleration if cycle == "roll_plane_step" else p.command
+    signal = p.acceleration if cycle == "roll_plane_step" else p.command.knots
     signal.count, signal.join = 2.0, JOINS.index("step")
     signal.times[:2], signal.values[:2] = (0.0, 2.995), (1e-3, np.nan)
     return simulation

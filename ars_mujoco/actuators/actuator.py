@@ -78,11 +78,19 @@ AnyPumpControlled = Annotated[
 Actuator = Annotated[NoBar | Passive | Locked | AnyPumpControlled, Field(discriminator="kind")]
 
 
-def fill_axle(record, actuator: Actuator, axle: str, stiffness: float, passive_stiffness: float, step: float):
+def fill_axle(
+    record,
+    actuator: Actuator,
+    axle: str,
+    stiffness: float,
+    passive_stiffness: float,
+    step: float,
+    bypassed: bool = False,
+):
     """Write the parameters of one axle ("front" or "rear") of `actuator` into an `axle.Axle` record.
 
     `stiffness` and `passive_stiffness` (Nm/rad) are the torsion of the active bar and of the conventional one in its
-    place; the physics step (s) is divided into substeps.
+    place; the physics step (s) is divided into substeps, more of them where the bypass valve will be open.
     """
     match actuator:
         case NoBar():
@@ -95,7 +103,7 @@ def fill_axle(record, actuator: Actuator, axle: str, stiffness: float, passive_s
             record.stiffness = stiffness
             _fill_circuit(record, actuator, at_temperature(getattr(actuator, axle)))
             if record.kind == DETAILED:
-                record.substeps = detailed_substeps(record, step)
+                record.substeps = detailed_substeps(record, step, bypassed)
             else:
                 record.substeps = substeps(record.circuit, stiffness, step)
 

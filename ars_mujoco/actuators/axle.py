@@ -33,6 +33,7 @@ from ars_mujoco.hydraulics.full_circuit import (
     B,
     stored_energies,
 )
+from ars_mujoco.hydraulics.pump import extrapolation
 from ars_mujoco.hydraulics.pump_control import control_power
 from ars_mujoco.hydraulics.reduced_circuit import (
     CircuitEnergy,
@@ -99,6 +100,7 @@ class PumpOutput(Parameters):
     shaft_power: Signal("W", "power taken from the shaft, negative where it is given back")
     loss_power: Signal("W", "lost to the pump's torque loss")
     leakage_power: Signal("W", "lost to leakage in the pump, its flow loss")
+    extrapolation: Signal("1", "how far the pump is outside the range of its losses, as a share of the range's end")
 
 
 class ReliefOutput(Parameters):
@@ -202,6 +204,7 @@ def _report_circuit(circuit, now, out):
     out.motor.pressure, out.motor.rate = state.pressure, state.rate
     out.pump.speed, out.pump.stroke = circuit.pump.speed, state.stroke
     out.pump.flow = circuit.pump.displacement * circuit.pump.speed * min(max(state.stroke, -1.0), 1.0)
+    out.pump.extrapolation = extrapolation(circuit.pump, state.stroke, state.pressure)
     out.energy.shaft, out.energy.recovered = energy.shaft, energy.recovered
     out.energy.pump_torque_loss, out.energy.pump_leakage = energy.pump_torque_loss, energy.pump_leakage
     out.energy.motor_leakage, out.energy.relief = energy.motor_leakage, energy.relief

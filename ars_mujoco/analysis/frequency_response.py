@@ -1,8 +1,8 @@
 """Frequency response of the closed loop: the linear one, and the running circuit's own to sines of several amplitudes.
 
-The running circuit is driven by `reduced_circuit.advance` like on the bench, with every saturation, with and without
-dry friction; the response is the fundamental of the angle over whole periods, once the start has died away. Both take
-the control unit as continuous; what its sampling costs is in `margins`.
+The running circuit is driven like on the bench, with every saturation, with and without dry friction; the response is
+the fundamental of the angle over whole periods, once the start has died away. Both take the control unit as continuous;
+what its sampling costs is in `margins`.
 
 Large sines meet two limits: the pump's flow, which takes the bandwidth down, and the spool's speed. At
 sqrt(Xdot_max ydot_max), where a full stroke back and forth needs all of it, the phase jumps down by some 80 deg.
@@ -18,10 +18,8 @@ from ars_mujoco.analysis.figure import ACCENT, SHADES, label, legend_beside
 from ars_mujoco.analysis.linearization import closed_loop
 from ars_mujoco.analysis.loop import Loop
 from ars_mujoco.analysis.margins import bandwidth
-from ars_mujoco.hydraulics.reduced_circuit import CircuitEnergy, CircuitState, advance
-from ars_mujoco.hydraulics.substeps import substeps
+from ars_mujoco.analysis.running_loop import follow, started
 from ars_mujoco.kernel import entry
-from ars_mujoco.parameters import record_dtype
 
 AMPLITUDES = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)  # deg
 DRAWN = (0.1, 0.5, 1.0, 2.0, 5.0, 10.0)
@@ -103,16 +101,13 @@ def draw(result: dict[str, Any]) -> Figure:
 def _measured_at(loop: Loop, amplitude: float, frequency: float) -> complex:
     samples = max(64, math.ceil(1.0 / (frequency * STEP)))
     settling, periods = (max(2, math.ceil(seconds * frequency)) for seconds in (SETTLING, MEASURED))
-    state, energy = (np.zeros(1, record_dtype(model)).view(np.recarray)[0] for model in (CircuitState, CircuitEnergy))
-    count = substeps(loop.circuit, loop.stiffness, 1.0 / (frequency * samples))
-    cosine, sine = _fundamental(
-        loop.circuit, loop.stiffness, loop.gain, state, energy, amplitude, frequency, settling, periods, samples, count
-    )
+    axle, state, work = started(loop, 1.0 / (frequency * samples))
+    cosine, sine = _fundamental(axle, state, work, loop.gain, amplitude, frequency, settling, periods, samples)
     return complex(sine, cosine) / amplitude
 
 
 @entry
-def _fundamental(circuit, stiffness, gain, state, energy, amplitude, frequency, settling, periods, samples, count):
+def _fundamental(axle, state, work, gain, amplitude, frequency, settling, periods, samples):
     """(cosine, sine) amplitudes (rad) of the angle under a command of `amplitude` sin(2 pi `frequency` t)."""
     step, turn = 1.0 / (frequency * samples), 2.0 * math.pi / samples
     cosine = sine = 0.0
@@ -123,10 +118,10 @@ def _fundamental(circuit, stiffness, gain, state, energy, amplitude, frequency, 
             amplitude * math.sin(turn * (i + 1)),
         )
         command = first, (4.0 * middle - 3.0 * first - last) / step, 2.0 * (first - 2.0 * middle + last) / (step * step)
-        advance(circuit, stiffness, state, state, energy, energy, command, gain, 0.0, 0.0, step, count)
+        follow(axle, state, work, command, gain, step)
         if i >= settling * samples:
-            cosine += state.angle * math.cos(turn * (i + 1))
-            sine += state.angle * math.sin(turn * (i + 1))
+            cosine += state.circuit.angle * math.cos(turn * (i + 1))
+            sine += state.circuit.angle * math.sin(turn * (i + 1))
     return 2.0 / (periods * samples) * cosine, 2.0 / (periods * samples) * sine
 
 

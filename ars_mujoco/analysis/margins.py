@@ -1,4 +1,5 @@
-"""Margins: gain margin, phase margin and bandwidth, with the loop continuous or closed by a control unit that samples.
+"""Margins: gain margin, phase margin and bandwidth, with the loop continuous or closed by a control unit that samples,
+and over the pump's speed with a fixed gain beside one that is scheduled with it.
 
 The sampled loop is exact: the actuator's zero-order hold, and the delay as states that hold the commands under way.
 """
@@ -13,13 +14,23 @@ from matplotlib.figure import Figure
 
 from ars_mujoco.analysis.figure import ACCENT, DASHES, SHADES, label, legend_beside
 from ars_mujoco.analysis.linearization import actuator, open_loop
-from ars_mujoco.analysis.loop import Loop
+from ars_mujoco.analysis.loop import RPM, Loop
 
 SAMPLE_TIMES = (1e-3, 2e-3, 5e-3, 10e-3)  # s
 DELAYS = (0.0, 2e-3, 5e-3, 10e-3)  # s
+SPEEDS = (1500.0, 3000.0, 6000.0)  # rpm
+SCHEDULES = {"fixed": 0.0, "scheduled": 1.0}  # K_p ~ 1/n
 POINTS = 800  # of frequency, between 1 rad/s and the sampling's limit
-FASTEST = 3000.0  # rad/s, beyond every pole of the actuator
-UNITS = {"sample_time": "s", "delay": "s", "gain_margin": "dB", "phase_margin": "deg", "bandwidth": "Hz"}
+FASTEST = 3000.0  # rad/s, beyond every crossing
+UNITS = {
+    "sample_time": "s",
+    "delay": "s",
+    "speed": "rad/s",
+    "gain": "1/rad",
+    "gain_margin": "dB",
+    "phase_margin": "deg",
+    "bandwidth": "Hz",
+}
 WANTED = {"gain_margin": 6.0, "phase_margin": 45.0}
 
 
@@ -42,7 +53,8 @@ def sampled(system: control.StateSpace, sample_time: float, delay: float) -> con
     inputs[waiting + 1][:] = whole @ late_in
     B[n] = 1.0
     A[n + 1 :, n:-1] = np.eye(lags - 1)
-    return control.ss(A, B, np.hstack([system.C, np.zeros((system.noutputs, lags))]), 0.0, sample_time)
+    C, names = np.hstack([system.C, np.zeros((system.noutputs, lags))]), (system.input_labels, system.output_labels)
+    return control.ss(A, B, C, 0.0, sample_time, inputs=names[0], outputs=names[1])
 
 
 def sampled_loop(loop: Loop, sample_time: float, delay: float) -> control.StateSpace:
@@ -55,15 +67,18 @@ def sampled_loop(loop: Loop, sample_time: float, delay: float) -> control.StateS
 def margins(system: control.StateSpace) -> dict[str, Any]:
     """Margins of an open loop: `gain_margin` dB, `phase_margin` deg, `bandwidth` Hz (-3 dB of the closed loop), and
     whether the closed loop `is_stable`; None where there is no such crossing.
+
+    A resonance may cross unit gain on the far side of -180 deg: of a stable loop the margin is the distance.
     """
     omega = _frequencies(system)
     response = system(np.exp(1j * omega * system.dt)) if system.dt else system(1j * omega)
     gain, phase, *_ = control.stability_margins(control.frd(response, omega, smooth=True))
+    is_stable = _is_stable(control.feedback(system))
     return {
         "gain_margin": 20.0 * math.log10(gain) if math.isfinite(gain) else None,
-        "phase_margin": float(phase) if math.isfinite(phase) else None,
+        "phase_margin": float(abs(phase) if is_stable else phase) if math.isfinite(phase) else None,
         "bandwidth": bandwidth(omega, response / (1.0 + response), control.dcgain(control.feedback(system))),
-        "is_stable": _is_stable(control.feedback(system)),
+        "is_stable": is_stable,
     }
 
 
@@ -79,7 +94,9 @@ def bandwidth(omega: np.ndarray, response: np.ndarray, at_rest: float) -> float 
 
 
 def compute(loop: Loop) -> dict[str, Any]:
-    """Margins of the loop: continuous, with each sample time and delay, and with its own unit where that samples."""
+    """Margins of the loop: continuous, with each sample time and delay, and with its own unit where that samples; and
+    of the continuous loop at each speed, with a fixed and with a scheduled gain.
+    """
     timings = [(0.0, 0.0), *((sample, delay) for delay in DELAYS for sample in SAMPLE_TIMES)]
     own = (loop.unit.sample_time, loop.unit.delay)
     if own[0] > 0.0 and own not in timings:
@@ -88,14 +105,28 @@ def compute(loop: Loop) -> dict[str, Any]:
         {"sample_time": sample, "delay": delay, **margins(sampled_loop(loop, sample, delay))}
         for sample, delay in timings
     ]
-    return {"units": UNITS, "gain": {"value": loop.gain, "unit": "1/rad"}, "rows": rows}
+    return {
+        "units": UNITS,
+        "gain": {"value": loop.gain, "unit": "1/rad"},
+        "rows": rows,
+        "over_speed": {
+            name: [_at_speed(loop.scheduled(schedule), rpm * RPM) for rpm in SPEEDS]
+            for name, schedule in SCHEDULES.items()
+        },
+    }
 
 
 def headline(result: dict[str, Any]) -> list[dict[str, str]]:
-    """Rows of the table: the continuous loop, and each sample time with no delay and with the most."""
+    """Rows of the table: the continuous loop, each sample time with no delay and with the most, and each speed."""
     shown = [row for row in result["rows"] if row["delay"] in (DELAYS[0], DELAYS[-1])]
     gain = result["gain"]["value"]
-    return [{"quantity": f"margins at K_p {gain:.3g}, {_timing(row)}", "value": _told(row)} for row in shown]
+    rows = [{"quantity": f"margins at K_p {gain:.3g}, {_timing(row)}", "value": _told(row)} for row in shown]
+    for name, speeds in result["over_speed"].items():
+        rows += [
+            {"quantity": f"margins at {row['speed'] / RPM:.0f} rpm, K_p {name} {row['gain']:.3g}", "value": _told(row)}
+            for row in speeds
+        ]
+    return rows
 
 
 def draw(result: dict[str, Any]) -> Figure:
@@ -115,6 +146,11 @@ def draw(result: dict[str, Any]) -> Figure:
     axes[0].set_title(f"A control unit that samples, K_p {result['gain']['value']:.3g} 1/rad", loc="left", fontsize=10)
     legend_beside(figure, axes[0])
     return figure
+
+
+def _at_speed(loop: Loop, speed: float) -> dict[str, Any]:
+    at = loop.at({"speed": speed})
+    return {"speed": speed, "gain": at.gain, **margins(open_loop(at))}
 
 
 def _held(system: control.StateSpace, time: float) -> tuple[np.ndarray, np.ndarray]:

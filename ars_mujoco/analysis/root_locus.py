@@ -19,7 +19,7 @@ def compute(loop: Loop) -> dict[str, Any]:
     """Poles for each gain, for the loop's own and for the one at which it begins to oscillate by itself."""
     system = actuator(loop)["angle", "stroke_command"]
     critical = critical_gain(loop)
-    gains = np.union1d(GAINS, _break_gains(system))
+    gains = GAINS if loop.is_detailed else np.union1d(GAINS, _break_gains(system))
     return {
         "units": {"gain": "1/rad", "poles": "rad/s as (real, imaginary)"},
         "gain": gains.tolist(),
@@ -67,7 +67,9 @@ def draw(result: dict[str, Any]) -> Figure:
 
 
 def _break_gains(system: control.StateSpace) -> list[float]:
-    """Gains of the root locus at which two of its branches meet on the real axis, where -1/system has an extreme."""
+    """Gains at which two branches of the root locus meet on the real axis, where -1/system has an extreme; the system
+    has no zeros.
+    """
     meetings = np.roots(np.polyder(np.poly(system.A)))
     gains = [-1.0 / system(s).real for s in meetings if abs(s.imag) < 1e-6 * abs(s)]
     return [gain for gain in gains if 0.0 < gain < GAINS[-1]]

@@ -1,11 +1,12 @@
 """Stable region of the gain over all of Table 2, by the parameter-space method (Ackermann; paper section 5).
 
-The closed loop's characteristic polynomial is a(s) + K b(s). Its roots lie on the imaginary axis where K = -a(jw)/b(jw)
-is real, which is a polynomial in w: its real roots are the boundary, exactly, with nothing sampled. Turned by an angle,
-K = -a(jw)/b(jw) e^(j theta), the same polynomial gives the gains at which the phase margin is theta; the gain margin
-shifts the boundary by its factor. Both bound the region of good damping (Gamma).
+With G the open loop over its gain, the closed loop has roots on the imaginary axis where K = -1/G(jw) is real: at the
+imaginary zeros of G(s) - G(-s), found as eigenvalues, so that the boundary is exact and nothing is sampled. Turned by
+an angle, K = -e^(j theta)/G(jw), the same gives the gains at which the phase margin is theta; the gain margin shifts
+the boundary by its factor. Both bound the region of good damping (Gamma).
 """
 
+import cmath
 import math
 from collections.abc import Iterable
 from dataclasses import replace
@@ -13,17 +14,17 @@ from typing import Any
 
 import control
 import numpy as np
+import scipy.linalg
 from matplotlib.figure import Figure
 
 from ars_mujoco.analysis.figure import ACCENT, DARK, DASHES, LIGHT, MIDDLE_GREY, SHADES, label
 from ars_mujoco.analysis.linearization import actuator
 from ars_mujoco.analysis.loop import RPM, Loop
-from ars_mujoco.analysis.margins import WANTED
+from ars_mujoco.analysis.margins import SCHEDULES, WANTED
 from ars_mujoco.analysis.parameter_box import MIDDLE, PLANT, TABLE_2, Point, grid
 
 BANDWIDTH = 12.0  # Hz, which the paper asks for (Darling et al. 1992)
 SPEEDS = np.linspace(*TABLE_2["speed"], 25)  # rad/s
-SCHEDULES = {"fixed": 0.0, "scheduled": 1.0}
 SHARES = np.linspace(0.0, 1.0, 13)  # of a parameter's range
 BOUNDS = ("stable", "gain_margin", "phase_margin", "wanted_bandwidth")
 UNITS = {"speed": "rad/s", "leakage": "m^3/s/Pa", "capacitance": "m^3/Pa", "inertia": "kg m^2",
@@ -35,17 +36,18 @@ def boundary(system: control.StateSpace, angle: float = 0.0) -> list[tuple[float
 
     With an angle of zero the closed loop then has roots on the imaginary axis.
     """
-    pace = np.abs(system.poles()).max()  # time in its units keeps the polynomials' coefficients comparable
-    A, B, C = system.A / pace, system.B / pace, system.C
-    a = np.poly(A)
-    b = np.poly(A - B @ C) - a
-    b[np.abs(b) < 1e-12 * np.abs(a).max()] = 0.0
-    turns = 1j ** np.arange(len(a) - 1, -1, -1)
-    q = np.polymul(a * turns, np.conj(b * turns)) * np.exp(1j * angle)
-    roots = np.roots(np.trim_zeros(q.imag, "f"))
-    frequencies = roots.real[(np.abs(roots.imag) < 1e-7 * np.abs(roots)) & (roots.real > 1e-9)]
-    gains = -(np.polyval(a, 1j * frequencies) / np.polyval(b, 1j * frequencies) * np.exp(1j * angle)).real
-    return sorted((float(k), float(w * pace)) for k, w in zip(gains, frequencies, strict=True) if k > 0.0)
+    A, B, C, pace = _balanced(system)
+    turn, n = cmath.exp(-1j * angle), len(A)
+    # turn G(s) - conj(turn) G(-s)
+    pencil = np.block(
+        [[A, np.zeros((n, n)), B], [np.zeros((n, n)), -A, B], [turn * C, turn.conjugate() * C, np.zeros((1, 1))]]
+    )
+    zeros = scipy.linalg.eig(pencil, np.diag([1.0] * (2 * n) + [0.0]), right=False)
+    zeros = zeros[np.isfinite(zeros)]
+    frequencies = pace * zeros.imag[(np.abs(zeros.real) < 1e-6 * np.abs(zeros)) & (zeros.imag > 1e-9)]
+    gains = [-1.0 / (turn * complex(system(1j * w))) for w in frequencies.tolist()]
+    crossings = [(k.real, w) for k, w in zip(gains, frequencies.tolist(), strict=True) if abs(k.imag) < 1e-6 * k.real]
+    return sorted(crossings)
 
 
 def critical_gain(loop: Loop) -> float:
@@ -55,14 +57,10 @@ def critical_gain(loop: Loop) -> float:
 
 def gain_for_bandwidth(system: control.StateSpace, frequency: float) -> float:
     """Least gain at which the closed loop's -3 dB point is at `frequency` (Hz): a quadratic equation in the gain."""
-    p, at_rest = complex(system(2j * math.pi * frequency)), float(control.dcgain(system))
+    p, softness = complex(system(2j * math.pi * frequency)), 1.0 / float(control.dcgain(system))  # 0 without a spring
     size = abs(p) ** 2
-    # 2 |K p / (1 + K p)|^2 = (K at_rest / (1 + K at_rest))^2
-    square, line, constant = (
-        size * at_rest**2,
-        4.0 * size * at_rest - 2.0 * at_rest**2 * p.real,
-        2.0 * size - at_rest**2,
-    )
+    # 2 |K p / (1 + K p)|^2 = (K / (K + softness))^2
+    square, line, constant = size, 4.0 * size * softness - 2.0 * p.real, 2.0 * size * softness**2 - 1.0
     return float(np.roots([square, line, constant]).real.max())
 
 
@@ -152,6 +150,14 @@ def draw(result: dict[str, Any]) -> Figure:
 
 def _system(loop: Loop) -> control.StateSpace:
     return actuator(loop)["angle", "stroke_command"]
+
+
+def _balanced(system: control.StateSpace) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """A, B, C with time in units of the fastest pole, and states scaled to be of one size; and that pole (rad/s)."""
+    pace = np.abs(system.poles()).max()
+    A, (scale, _) = scipy.linalg.matrix_balance(system.A / pace, permute=False, separate=True)
+    B, C = system.B / scale[:, None], system.C * scale
+    return A, B / np.linalg.norm(B), C / np.linalg.norm(C), pace
 
 
 def _at(name: str, share: float) -> Point:

@@ -59,8 +59,8 @@ def read_samples(name: str, unit: str) -> Samples:
         lines = content.decode("utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise ValueError(f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
-    (_, header), *rows = [(i, cells) for i, cells in enumerate(csv.reader(lines), 1) if cells] or [(1, [])]
-    scales = _scales(header, unit)
+    header, *rows = [(line, cells) for line, cells in enumerate(csv.reader(lines), 1) if cells] or [(1, [])]
+    scales = _scales(*header, unit)
     if not 1 <= len(rows) <= MOST:
         raise ValueError(f"holds {len(rows)} samples; allowed: 1 to {MOST}")
     table = np.array([_row(line, cells) for line, cells in rows]) * scales
@@ -88,17 +88,17 @@ def sampled(p, t: float) -> float:
     return p.values[low] + share * (p.values[high] - p.values[low])
 
 
-def _scales(header: list[str], unit: str) -> list[float]:
+def _scales(line: int, header: list[str], unit: str) -> list[float]:
     """Size of the units of the time and the value column, in SI."""
     units = [NAME_AND_UNIT.fullmatch(cell) for cell in header]
     if len(units) != 2 or not all(units):
-        raise ValueError(f"line 1: needs {HEADER}")
+        raise ValueError(f"line {line}: needs {HEADER}")
     scales = []
     for match, wanted in zip(units, ("s", unit), strict=True):
         try:
             scales.append(to_si(f"1 {match[1]}", wanted))
         except ValueError as error:
-            raise ValueError(f"line 1: '{match[0].strip()}': {error}") from None
+            raise ValueError(f"line {line}: '{match[0].strip()}': {error}") from None
     return scales
 
 

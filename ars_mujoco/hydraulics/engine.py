@@ -37,8 +37,9 @@ class Engine(Parameters):
     @field_validator("max_speed")
     @classmethod
     def _above_idle(cls, max_speed, info: ValidationInfo):
-        if max_speed <= info.data.get("idle_speed", 0.0):
-            raise ValueError("max_speed must be above idle_speed")
+        idle_speed = info.data.get("idle_speed", 0.0)
+        if max_speed <= idle_speed:
+            raise ValueError(f"max_speed must be above idle_speed, which is {idle_speed:.4g} rad/s")
         return max_speed
 
     @field_validator("ratios")

@@ -9,7 +9,7 @@ gives energy.
 """
 
 import re
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Self
 
 import numpy as np
 from pydantic import AfterValidator
@@ -34,8 +34,8 @@ def _check_terms(coefficients: dict[str, float]) -> dict[str, float]:
 
 
 def _check_rising(ends: tuple[float, float]) -> tuple[float, float]:
-    if not ends[0] <= ends[1]:
-        raise ValueError("a range goes from its least to its largest value")
+    if not 0.0 < ends[1] >= ends[0]:
+        raise ValueError("a range goes from its least to its largest value, which is over zero")
     return ends
 
 
@@ -59,7 +59,7 @@ class LossPolynomial(Parameters):
             ("norm", "f8"),
             ("normal_speed", "f8"),
             ("normal_pressure", "f8"),
-            ("orders", "f8", 3),
+            ("order", "f8"),
             ("table", "f8", (HIGHEST + 1,) * 3),
             ("limits", "f8", (3, 2)),
         ]
@@ -81,8 +81,13 @@ class LossPolynomial(Parameters):
         return tuple(max(indices) for indices in zip((0, 0, 0), *self.terms, strict=True))
 
     @property
+    def order(self) -> int:
+        """The largest of the orders."""
+        return max(self.orders)
+
+    @property
     def table(self) -> np.ndarray:
-        """The coefficients (5, 5, 5), zero above the orders."""
+        """The coefficients (5, 5, 5), by i, j, k; zero above the orders."""
         table = np.zeros((HIGHEST + 1,) * 3)
         for term, value in self.terms.items():
             table[term] = value
@@ -93,15 +98,36 @@ class LossPolynomial(Parameters):
         """Least and largest stroke, speed (rad/s) and pressure (Pa)."""
         return self.validity.stroke, self.validity.speed, self.validity.pressure
 
+    def scaled(self, ratio: float) -> Self:
+        """The loss of a geometrically similar machine of `ratio` times the displacement.
+
+        Lengths grow by l = ratio^(1/3). At the same pressure and the same speed of the sliding parts, that is at n/l,
+        its losses are the same shares of its flow and torque: norms go as V n (l^2) and V dp (l^3), n_norm and the
+        range of speeds as 1/l, and the coefficients stay.
+        """
+        length = ratio ** (1.0 / 3.0)
+        validity = self.validity.model_copy(update={"speed": tuple(end / length for end in self.validity.speed)})
+        return self.model_copy(
+            update={
+                "norm": self.norm * length**self.GROWTH,
+                "normal_speed": self.normal_speed / length,
+                "validity": validity,
+            }
+        )
+
 
 class FlowLoss(LossPolynomial):
     """Eq. 21."""
+
+    GROWTH: ClassVar[int] = 2  # power of a length that the norm goes with
 
     norm: Quantity("m^3/s", ge=0)  # Q_S,norm
 
 
 class TorqueLoss(LossPolynomial):
     """Eq. 22."""
+
+    GROWTH: ClassVar[int] = 3
 
     norm: Quantity("Nm", ge=0)  # M_S,norm
 
@@ -128,7 +154,7 @@ def odd_loss(loss, stroke: float, speed: float, pressure: float) -> float:
 
 @kernel
 def beyond(loss, stroke: float, speed: float, pressure: float) -> float:
-    """How far a point lies outside the polynomial's range, in widths of the range; 0 inside."""
+    """How far a point lies outside the range of the polynomial, as a share of the range's end; 0 inside."""
     limits = loss.limits
     return max(
         _beyond(abs(stroke), limits[0, 0], limits[0, 1]),
@@ -139,33 +165,30 @@ def beyond(loss, stroke: float, speed: float, pressure: float) -> float:
 
 @kernel
 def _beyond(value, least, largest):
-    return max(value - largest, least - value, 0.0) / max(largest - least, 1e-9 * largest)
+    return max(value - largest, least - value, 0.0) / largest
 
 
 @kernel
 def _parts(loss, x, speed, y):
-    # the sum without its powers of the pressure, and the rest; most polynomials are of first order: no loops for them
-    n, table, orders = speed / loss.normal_speed, loss.table, loss.orders
-    if max(orders[0], orders[1], orders[2]) <= 1.0:
-        return _bilinear(table, x, n, 0), y * _bilinear(table, x, n, 1)
-    through = 0.0
-    for k in range(int(orders[2]), 0, -1):
-        through = y * (through + _plane(table, orders, x, n, k))
-    return _plane(table, orders, x, n, 0), through
+    # the sum without its powers of the pressure, and the rest; loops of a given length, for the compiler unrolls them
+    n = speed / loss.normal_speed
+    if loss.order <= 1.0:
+        return _horner(loss, 1, x, n, y)
+    if loss.order <= 2.0:
+        return _horner(loss, 2, x, n, y)
+    return _horner(loss, HIGHEST, x, n, y)
 
 
 @kernel
-def _bilinear(table, x, n, k):
-    return table[0, 0, k] + table[0, 1, k] * n + (table[1, 0, k] + table[1, 1, k] * n) * x
-
-
-@kernel
-def _plane(table, orders, x, n, k):
-    # sum over i, j by Horner's scheme
-    total = 0.0
-    for i in range(int(orders[0]), -1, -1):
-        row = 0.0
-        for j in range(int(orders[1]), -1, -1):
-            row = row * n + table[i, j, k]
-        total = total * x + row
-    return total
+def _horner(loss, order, x, n, y):
+    table = loss.table
+    without = through = 0.0
+    for i in range(order, -1, -1):
+        row_without = row_through = 0.0
+        for j in range(order, -1, -1):
+            powers = 0.0
+            for k in range(order, 0, -1):
+                powers = (powers + table[i, j, k]) * y
+            row_without, row_through = row_without * n + table[i, j, 0], row_through * n + powers
+        without, through = without * x + row_without, through * x + row_through
+    return without, through

@@ -1,6 +1,10 @@
 """Variable displacement pump: flow, flow loss and torque loss (paper eqs. 21 to 24, 41)."""
 
-from ars_mujoco.hydraulics.loss_polynomial import FlowLoss, TorqueLoss, even_loss, odd_loss
+import math
+
+from pydantic import model_validator
+
+from ars_mujoco.hydraulics.loss_polynomial import FlowLoss, TorqueLoss, beyond, even_loss, odd_loss
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, Quantity
 from ars_mujoco.saturation import saturate
@@ -14,6 +18,17 @@ class Pump(Parameters):
     leakage: Quantity("m^3/s/Pa", ge=0)  # the pump's share of k_Li
     flow_loss: FlowLoss | None = None  # besides the leakage
     torque_loss: TorqueLoss
+
+    @model_validator(mode="after")
+    def _check_speed(self) -> "Pump":
+        for name in ("torque_loss", "flow_loss"):
+            loss = getattr(self, name)
+            if loss and not loss.validity.speed[0] <= self.speed <= loss.validity.speed[1]:
+                speed, least, most = (30.0 / math.pi * each for each in (self.speed, *loss.validity.speed))
+                raise ValueError(
+                    f"speed: {speed:.6g} rpm is outside the range of {name}; allowed: {least:.6g} to {most:.6g} rpm"
+                )
+        return self
 
 
 @kernel
@@ -35,3 +50,13 @@ def flow_loss(pump, stroke: float, pressure: float) -> float:
 def torque_loss(pump, stroke: float, pressure: float) -> float:
     """Torque loss (Nm), which the shaft pays in all four quadrants (eq. 22)."""
     return even_loss(pump.torque_loss, saturate(stroke, 1.0), pump.speed, pressure)
+
+
+@kernel
+def extrapolation(pump, stroke: float, pressure: float) -> float:
+    """How far the pump runs outside the range of its losses, as a share of the range's end; 0 inside."""
+    stroke = saturate(stroke, 1.0)
+    outside = beyond(pump.torque_loss, stroke, pump.speed, pressure)
+    if pump.flow_loss.norm > 0.0:
+        return max(outside, beyond(pump.flow_loss, stroke, pump.speed, pressure))
+    return outside

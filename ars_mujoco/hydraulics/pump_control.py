@@ -65,6 +65,18 @@ def stroke_speed(circuit, detail, state) -> float:
 
 
 @kernel
+def control_rates(circuit, detail, state, stroke_command: float, pressure: float):
+    """Derivatives of the six states at the stage that `detail` names, at a pressure (Pa) of the main pump; what a stage
+    has no equation for stands still.
+    """
+    if detail.stage == THIRD_ORDER:
+        nowhere = (0.0, 0.0, 0.0)
+        spool_rate, acceleration, stroke = _third_order_rates(circuit, state, 0.0, nowhere, stroke_command)
+        return spool_rate, acceleration, 0.0, 0.0, stroke, 0.0
+    return cylinder_rates(circuit, detail, state, stroke_command, pressure)[0]
+
+
+@kernel
 def cylinder_rates(circuit, detail, state, stroke_command: float, pressure: float):
     """Derivatives of the six states with a cylinder, and the slopes that a linearly implicit step needs.
 

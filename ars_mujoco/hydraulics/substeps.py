@@ -40,14 +40,19 @@ def substeps(circuit, bar_stiffness: float, step: float) -> int:
     return _fewest([_slopes(partial(_rates, circuit, bar_stiffness), state, NUDGES) for state in states], step)
 
 
-def detailed_substeps(axle, step: float) -> int:
-    """The same for the plant of a detailed circuit, an `axle.Axle` record; its pump control takes implicit steps."""
-    states = np.zeros((4, STATES))
+def detailed_substeps(axle, step: float, bypassed: bool) -> int:
+    """The same for the plant of a detailed circuit, an `axle.Axle` record; its pump control takes implicit steps.
+
+    Looked at also with open check valves and, where it will be `bypassed`, an open bypass valve.
+    """
+    states = np.zeros((5, STATES))
     for state in states:
         start_plant(axle, state)
+    states[:, BYPASS] = bypassed
     states[1, RATE] = 1.0  # rad/s
     states[2, A] += 1.1 * axle.circuit.relief_valve.pressure
     states[3, ANGLE] = 1.01 * axle.circuit.motor.stop_angle
+    states[4, GALLERY] *= 2.0
     return _fewest([_slopes(partial(_plant_rates, axle), state, PLANT_NUDGES) for state in states], step)
 
 

@@ -61,6 +61,7 @@ LEAST = {
     "kJ": 0.1,
     "mm": 5.0,
     "km/h": 5.0,
+    "rpm": 100.0,
 }
 MARGIN = 0.06
 FEW_LABELS = 0.5  # of a decade: a half range above it leaves no room for the labels of a tenth of the decade

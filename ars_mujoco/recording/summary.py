@@ -23,7 +23,7 @@ def summary(run: Recording) -> dict[str, Any]:
         "title": run.title,
         "inputs": inputs,
         "inputs_sha256": hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest(),
-        "versions": _versions(),
+        "versions": versions(),
         "duration": {"value": float(run.time[-1] - run.time[0]) if len(run.time) else 0.0, "unit": "s"},
         "metrics": _plain(run.metrics),
         "events": [{"time": float(event.time), "level": event.level, "text": event.text} for event in run.events],
@@ -35,7 +35,8 @@ def write_summary(path: Path, run: Recording) -> None:
     path.write_text(json.dumps(summary(run), indent=2, allow_nan=False) + "\n")
 
 
-def _versions() -> dict[str, str]:
+def versions() -> dict[str, str]:
+    """Versions of this package, of Python and of what a run depends on."""
     own = {"ars_mujoco": __version__, "python": platform.python_version()}
     return own | {name: version(name) for name in PACKAGES}
 

@@ -51,22 +51,28 @@ WORLD = world_dtype(
 
 @kernel
 def step(world, mj) -> None:
-    """One call of the callback: the ends' twist and the command drive the actuator; mocap bodies show the ends."""
+    """One call of the callback: the ends' twist and the command drive the actuator; mocap bodies show the ends.
+
+    Over the step the twist is held at its mean (Simpson's rule).
+    """
     begin(world, mj.time)
     p, h = world.parameters, world.header.step
-    travel, next_travel = value(p.ends, mj.time), value(p.ends, mj.time + h)
+    travel = value(p.ends, mj.time)
     world.out.ends.travel = travel
     mj.mocap_pos[2], mj.mocap_pos[5] = p.ends_height + 0.5 * travel, p.ends_height - 0.5 * travel
-    # The ends' motion is given. Held at the mean of a step's two ends, the twist gives the mean torque that does the
-    # work by which the bar's energy changes, even where the ends jump; so a step's rate is what it turns the bar by.
-    angle, next_angle = one_arm_twist(travel, p.arm), one_arm_twist(next_travel, p.arm)
-    twist = (angle, world.now.stabilizers.front.twist_rate, 0.5 * (angle + next_angle))
+    first, middle, last = (
+        one_arm_twist(travel, p.arm),
+        one_arm_twist(value(p.ends, mj.time + 0.5 * h), p.arm),
+        one_arm_twist(value(p.ends, mj.time + h), p.arm),
+    )
+    held, now, later = (first + 4.0 * middle + last) / 6.0, world.now.stabilizers, world.later.stabilizers
     front, _ = stabilize_both(
-        p.stabilizers, world.now.stabilizers, world.later.stabilizers,
-        world.out.drive, world.out.front, world.scratch.rear, mj.time, h, NO_SPEED,
-        parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), twist, (0.0, 0.0, 0.0), world.scratch.work,
+        p.stabilizers, now, later, world.out.drive, world.out.front, world.scratch.rear, mj.time, h, NO_SPEED,
+        parabola(p.command, mj.time, h), (0.0, 0.0, 0.0), (first, 0.0, held), (0.0, 0.0, 0.0), world.scratch.work,
     )  # fmt: skip
-    world.later.stabilizers.front.twist_rate = (next_angle - angle) / h
+    # no rate was given, because the work of a known motion is counted here, even where it jumps
+    later.front.work += work(p.stabilizers.front.stiffness, now.front.circuit.angle, first, held)
+    later.front.work += work(p.stabilizers.front.stiffness, later.front.circuit.angle, held, last)
     check_circuits(world, p.stabilizers, world.later.stabilizers, mj.time)
     check_finite(world, front, mj.time)
 
@@ -75,6 +81,12 @@ def step(world, mj) -> None:
 def one_arm_twist(travel: float, arm: float) -> float:
     """Twist (rad) of a bar whose ends are `travel` (m) apart in height: the paper's one-arm form (eq. 26)."""
     return math.asin(travel / arm)
+
+
+@kernel
+def work(stiffness: float, angle: float, start: float, end: float) -> float:
+    """Work (J) of the bar on its ends while they twist it from `start` to `end` (rad), its motor at `angle` (rad)."""
+    return stiffness * (angle - 0.5 * (start + end)) * (end - start)
 
 
 @kernel

@@ -4,8 +4,11 @@ import mujoco
 import numpy as np
 
 from ars_mujoco.actuators.axle import DETAILED, PUMP_CONTROLLED, Axle, AxleState, stabilize
+from ars_mujoco.control import pole_compensator, pressure_feedback
 from ars_mujoco.control.bar_angle_loop import BarAngleLoop, limited, outer_gain
 from ars_mujoco.control.control_unit import DELAY_LINE, ControlUnit, delayed, samples_now
+from ars_mujoco.control.pole_compensator import PoleCompensator, compensated
+from ars_mujoco.control.pressure_feedback import PressureFeedback, fed_back
 from ars_mujoco.hydraulics.drive import DRIVE, DriveState, set_speed, take_work
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import record_dtype
@@ -28,8 +31,11 @@ PARAMETERS = np.dtype(
         ("unit", record_dtype(ControlUnit)),
         ("front_valves", VALVES),
         ("rear_valves", VALVES),
+        ("feedback", record_dtype(PressureFeedback)),  # a gain of 0: none
+        ("compensator", record_dtype(PoleCompensator)),  # a frequency of 0: none
     ]
 )
+FILTERS = np.dtype([("feedback", pressure_feedback.STATE), ("compensator", pole_compensator.STATE)])
 STATE = np.dtype(
     [
         ("front", record_dtype(AxleState)),
@@ -38,6 +44,8 @@ STATE = np.dtype(
         ("delay", DELAY_LINE),
         ("front_stroke", "f8"),  # stroke commands that a sampling unit last computed
         ("rear_stroke", "f8"),
+        ("front_filters", FILTERS),
+        ("rear_filters", FILTERS),
     ]
 )
 
@@ -66,15 +74,21 @@ def stabilize_both(
             front_command, rear_command = (front, 0.0, 0.0), (rear, 0.0, 0.0)
     else:
         later.front_stroke, later.rear_stroke = now.front_stroke, now.rear_stroke
+        later.front_filters, later.rear_filters = now.front_filters, now.rear_filters
         if samples_now(p.unit, time, step):
-            later.front_stroke = saturate(front_gain * (front_command[0] - now.front.circuit.angle), 1.0)
-            later.rear_stroke = saturate(rear_gain * (rear_command[0] - now.rear.circuit.angle), 1.0)
+            later.front_stroke = _stroke(
+                p, now.front_filters, later.front_filters, now.front.circuit, front_gain, front_command[0]
+            )
+            later.rear_stroke = _stroke(
+                p, now.rear_filters, later.rear_filters, now.rear.circuit, rear_gain, rear_command[0]
+            )
         front_bias, rear_bias = delayed(p.unit, later.delay, later.front_stroke, later.rear_stroke, step)
         front_gain = rear_gain = 0.0
+    front_valves, rear_valves = _openings(p.front, p.front_valves, time), _openings(p.rear, p.rear_valves, time)
     torques = stabilize(
         p, now, later, front_out, rear_out, front_twist, rear_twist,
-        (front_command, front_gain, front_bias), (rear_command, rear_gain, rear_bias),
-        (_openings(p.front, p.front_valves, time), _openings(p.rear, p.rear_valves, time)), step, work,
+        _demand(front_command, front_gain, front_bias, front_valves),
+        _demand(rear_command, rear_gain, rear_bias, rear_valves), (front_valves, rear_valves), step, work,
     )  # fmt: skip
     done = later.front.energy.shaft - now.front.energy.shaft + later.rear.energy.shaft - now.rear.energy.shaft
     take_work(p.drive, now.drive, later.drive, drive_out, done, step)
@@ -82,8 +96,27 @@ def stabilize_both(
 
 
 @kernel
+def _stroke(p, now, later, circuit, gain, command):
+    # the stroke command of a sample; limited before the feedback too, which so keeps damping while the error is large
+    stroke = saturate(gain * (command - circuit.angle), 1.0)
+    if p.compensator.frequency > 0.0:
+        stroke = compensated(p.compensator, now.compensator, later.compensator, stroke, p.unit.sample_time)
+    if p.feedback.gain != 0.0:
+        stroke -= fed_back(p.feedback, now.feedback, later.feedback, circuit.pressure, p.unit.sample_time)
+    return saturate(stroke, 1.0)
+
+
+@kernel
 def _gain(axle, loop):
     return outer_gain(loop, axle.circuit.pump.speed) if axle.kind >= PUMP_CONTROLLED else 0.0
+
+
+@kernel
+def _demand(command, gain, bias, valves):
+    # where a valve is told to cut the motor off, the unit swashes the pump back in place of pumping against it
+    bypass, fail_safe = valves
+    connected = (1.0 - bypass) * fail_safe
+    return command, connected * gain, connected * bias
 
 
 @kernel

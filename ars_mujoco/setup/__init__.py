@@ -37,5 +37,9 @@ def prepare(cycle: Cycle, actuator: Actuator, controller: Controller, vehicle: B
                 "allowed: constant, table, electric"
             )
         fill_drive(start.parameters.stabilizers.drive, actuator.drive)
+    if controller.pressure_feedback:
+        fill(start.parameters.stabilizers.feedback, controller.pressure_feedback)
+    if controller.compensator:
+        fill(start.parameters.stabilizers.compensator, controller.compensator)
     set_up = import_module(f"ars_mujoco.setup.{cycle.rig}").set_up
     return set_up(start, cycle, actuator, controller, vehicle)

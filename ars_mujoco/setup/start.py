@@ -7,10 +7,9 @@ import mujoco
 import numpy as np
 
 from ars_mujoco.actuators.actuator import Actuator, fill_axle, start_axle
-from ars_mujoco.cycle import Cycle
+from ars_mujoco.cycle import Cycle, Valves
 from ars_mujoco.errors import InputError
 from ars_mujoco.law import Law
-from ars_mujoco.signal import signal
 from ars_mujoco.simulation import Simulation
 from ars_mujoco.world import NUMERIC, new_world
 
@@ -42,10 +41,15 @@ class Start:
     def fill_stabilizer(self, axle: str, actuator: Actuator, stiffness: float, passive_stiffness: float) -> None:
         """Write an axle ("front" or "rear") of `actuator` as `actuator.fill_axle` does, at rest and charged."""
         stabilizers = self.parameters.stabilizers
-        fill_axle(stabilizers[axle], actuator, axle, stiffness, passive_stiffness, self.step)
+        bypassed = bool(np.any(getattr(self.cycle.valves, f"{axle}_bypass").signal().values))
+        fill_axle(stabilizers[axle], actuator, axle, stiffness, passive_stiffness, self.step, bypassed)
         start_axle(stabilizers[axle], self.world[0].now.stabilizers[axle])
-        valves = stabilizers[f"{axle}_valves"]
-        valves.bypass, valves.fail_safe = signal([0.0], [0.0]), signal([0.0], [1.0])
+        if self.cycle.valves != Valves() and getattr(actuator, "circuit", "full") != "full":
+            raise InputError(
+                f"valves: the circuit '{actuator.circuit}' has none to command; allowed with circuit: full"
+            )
+        for valve in ("bypass", "fail_safe"):
+            stabilizers[f"{axle}_valves"][valve] = getattr(self.cycle.valves, f"{axle}_{valve}").signal()
 
     def stored(self) -> Simulation:
         """The simulation, with the world as it is now written into its model."""

@@ -60,6 +60,17 @@ def test_a_delay_costs_the_phase_that_passes_in_it():
     assert early - late == pytest.approx(math.degrees(61.6 * 2e-3), rel=0.02)
 
 
+def test_a_fixed_gain_loses_margin_with_the_speed_and_a_scheduled_one_keeps_it():
+    fixed, scheduled = (compute(LOOP)["over_speed"][name] for name in ("fixed", "scheduled"))
+    # 6 dB for each doubling of the speed, which is the loop's gain
+    assert [row["gain_margin"] for row in fixed] == pytest.approx([16.6, 10.6, 4.6], abs=0.05)
+    assert [row["bandwidth"] for row in fixed] == pytest.approx([6.6, 21.0, 39.3], abs=0.1)
+    assert [row["gain"] for row in scheduled] == pytest.approx([120, 60, 30])
+    for row in scheduled:
+        for name in ("gain_margin", "phase_margin", "bandwidth"):
+            assert row[name] == pytest.approx(fixed[1][name], rel=1e-3)
+
+
 @pytest.mark.parametrize(("share", "is_stable"), [(0.95, True), (1.05, False)])
 def test_the_running_control_unit_loses_stability_where_its_gain_margin_ends(share, is_stable, tmp_path):
     margin = margins(sampled_loop(LOOP, 10e-3, 10e-3))["gain_margin"]

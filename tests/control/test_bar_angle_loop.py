@@ -30,6 +30,11 @@ def test_a_scheduled_gain_asks_for_the_same_flow_at_every_speed(rpm):
     assert ideal_flow(pump, outer_gain(loop(1), pump.speed) * error) == pytest.approx(0.06 * 9e-5, rel=1e-12)
 
 
+def test_a_scheduled_gain_at_idle_is_still_the_schedule_s_and_finite_where_the_engine_is_off():
+    assert outer_gain(loop(1), 800 * RPM) == pytest.approx(60 * 3000 / 800)
+    assert outer_gain(loop(1), 0.0) == outer_gain(loop(1), 50.0) == pytest.approx(60 * 3000 * RPM / 50.0)
+
+
 def test_a_half_schedule_lies_between():
     assert outer_gain(loop(0.5), 1500 * RPM) == pytest.approx(90.0)
 

@@ -67,8 +67,6 @@ class DetailedPlant(VerificationSet):
     lumps: int = 1  # of each line
     line_diameter: float = 0.010  # m
     b_w: float = 0.0  # 1/Pa, compliance of the lines' walls
-    k_p: float = 2.25e-13  # m^3/s/Pa, pump's leakage
-    k_m: float = 1.75e-13  # m^3/s/Pa, motor's leakage
     k_x: float = 1e-14  # m^3/s/Pa, a side's leakage to the tank
     V_g: float = 2e-4  # m^3, gallery
     V_c: float = 0.5e-6  # m^3/rev, charge pump
@@ -84,6 +82,16 @@ class DetailedPlant(VerificationSet):
 
     # motor
     c_stop: float = 2e5  # Nm/rad, beyond phi_n
+
+    @property
+    def k_p(self) -> float:
+        """Pump's leakage [m^3/s/Pa]."""
+        return self.pump_leakage_share * self.k
+
+    @property
+    def k_m(self) -> float:
+        """Motor's leakage [m^3/s/Pa]."""
+        return (1 - self.pump_leakage_share) * self.k
 
     @property
     def line_area(self) -> float:

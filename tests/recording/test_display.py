@@ -14,6 +14,7 @@ from ars_mujoco.recording.display import axis_range, series_name, unit_and_facto
         ("front.motor.pressure", "Pa", "bar", 1e-5),
         ("front.pump.flow", "m^3/s", "L/min", 6e4),
         ("body.speed", "m/s", "km/h", 3.6),
+        ("front.pump.speed", "rad/s", "rpm", 9.549297),
         ("fl.suspension.rate", "m/s", "m/s", 1.0),
         ("suspension.travel", "m", "mm", 1e3),
         ("fl.suspension.travel", "rad", "deg", 57.29578),

@@ -1,0 +1,163 @@
+"""What the drive's speed does to the actuator: idle and 6000 rpm, an engine that is off, and who pays."""
+
+import math
+
+import numpy as np
+import pytest
+import shipped
+from bench import STIFFNESS, circuit, drive
+from test_energy import astray
+
+from ars_mujoco.metrics import G
+
+RPM = math.pi / 30
+H = 1e-3
+BENCH, STEP_STEER, CIRCLE = "bench_s_curve", "step_steer_iso7401", "steady_circle_iso4138"
+SCHEDULED = "controller.loop.schedule=1"
+ENGINE, ELECTRIC = "actuator.drive.kind=engine", "actuator.drive.kind=electric"
+RATE_AND_PRESSURE = ("rate", "pressure")
+
+
+def at(rpm: float) -> tuple[str, str]:
+    return tuple(f"actuator.{axle}.pump.speed={rpm} rpm" for axle in ("front", "rear"))
+
+
+def over_time(*knots: str) -> tuple[str, str]:
+    return "actuator.drive.kind=table", f"actuator.drive.speed={{join: linear, knots: [{', '.join(knots)}]}}"
+
+
+def lag(recording) -> float:
+    """The largest error of the bar's angle, deg."""
+    return np.degrees(np.abs(recording["front.bar.command"] - recording["front.bar.angle"])).max()
+
+
+# ---- idle and 6000 rpm
+
+
+def rate_by_the_flow(rpm: float, pressure: float) -> float:
+    """Rate (rad/s) of the motor at full stroke: the flow, less what leaks, turns it and fills the oil as it loads."""
+    parameters = circuit()
+    pump, motor = parameters.pump, parameters.motor
+    flow = pump.displacement * rpm * RPM - (pump.leakage + motor.leakage) * pressure
+    return flow / (motor.displacement + parameters.line.capacitance * STIFFNESS / motor.displacement)
+
+
+def test_at_idle_flow_limits_the_s_curve():
+    recording = drive(BENCH, *at(800), SCHEDULED)
+    stroke = recording["front.pump.stroke"]
+    full = np.abs(stroke) > 0.9999
+    rate, pressure = ((np.sign(stroke) * recording[f"front.motor.{name}"])[full].mean() for name in RATE_AND_PRESSURE)
+    print(f"full stroke for {H * full.sum():.2f} s, lag {lag(recording):.2f} deg, {np.degrees(rate):.2f} deg/s")
+    assert H * full.sum() > 0.5
+    assert rate == pytest.approx(rate_by_the_flow(800, pressure), rel=0.01)
+    assert lag(recording) > 1.0
+
+
+def test_at_6000_rpm_it_takes_a_quarter_of_the_stroke_of_1500_rpm_for_the_same_run():
+    slow, fast = (drive(BENCH, *at(rpm), SCHEDULED) for rpm in (1500, 6000))
+    strokes = [np.abs(each["front.pump.stroke"]).max() for each in (slow, fast)]
+    print(f"strokes {strokes}, lags {lag(slow):.3f} and {lag(fast):.3f} deg")
+    assert strokes[0] / strokes[1] == pytest.approx(4.0, rel=0.02)
+    assert lag(fast) == pytest.approx(lag(slow), rel=0.01)
+    assert fast["front.energy.shaft"][-1] > 3 * slow["front.energy.shaft"][-1]  # idling costs more the faster it turns
+
+
+@pytest.mark.parametrize("rpm", [800, 6000])
+def test_a_step_of_10_deg_is_as_fast_as_the_flow(rpm):
+    recording = drive("bench_step_10deg", *at(rpm), "duration=2 s")
+    angle = np.degrees(recording["front.bar.angle"])
+    between = (angle > 3.0) & (angle < 6.0) & (recording["front.pump.stroke"] > 0.9999)
+    rate, pressure = (recording[f"front.motor.{name}"][between].mean() for name in RATE_AND_PRESSURE)
+    print(f"{rpm} rpm: {np.degrees(rate):.1f} deg/s")
+    assert rate == pytest.approx(rate_by_the_flow(rpm, pressure), rel=0.01)
+
+
+# ---- a speed that changes
+
+RAMP = over_time("[2 s, 800 rpm]", "[14 s, 6000 rpm]", "[17 s, 800 rpm]")
+
+
+@pytest.mark.parametrize("schedule", [0, 1])
+def test_the_energy_audit_closes_while_the_engine_speeds_up_and_down_through_the_s_curve(schedule):
+    recording = drive(BENCH, *RAMP, f"controller.loop.schedule={schedule}")
+    asked = np.interp(recording.time, [2.0, 14.0, 17.0], np.array([800, 6000, 800]) * RPM)
+    assert recording["front.pump.speed"] == pytest.approx(asked)
+    error = np.abs(astray(recording)).max() / recording["front.energy.throughput"][-1]
+    print(f"audit {100 * error:.5f} %")
+    assert error < 1e-3
+    assert H * np.sum(recording["drive.power"][:-1]) == pytest.approx(recording["front.energy.shaft"][-1])
+
+
+def test_where_the_engine_is_off_the_bar_lets_go_as_fast_as_the_oil_leaks():
+    off = over_time("[0.5 s, 3000 rpm]", "[1 s, 0 rpm]")
+    frictionless = [f"actuator.front.motor.{name}" for name in ("coulomb_friction=0 Nm", "viscous_friction=0 Nms/rad")]
+    small = "manoeuvre.command.knots=[[0 s, 1 deg]]"  # at which the capacitance hardly varies
+    recording = drive("bench_step_10deg", *off, *frictionless, small, SCHEDULED, "duration=6 s")
+    late = recording.time > 2.0
+    decay = -np.polyfit(recording.time[late], np.log(recording["front.bar.angle"][late]), 1)[0]
+    motor = circuit().motor
+    expected = 4e-13 / (6e-14 + motor.displacement**2 / STIFFNESS)
+    print(f"{decay:.4f} 1/s, {expected:.4f} 1/s by the closed form")
+    assert decay == pytest.approx(expected, rel=2e-3)
+    assert not np.any(recording["front.pump.shaft_power"][late])
+
+
+# ---- the electric motor
+
+
+@pytest.mark.parametrize("settings", [(), ("actuator.drive.torque_limit=0.6 Nm",)])
+@pytest.mark.parametrize("efficiency", [1.0, 0.85])
+def test_the_supply_pays_for_the_pumps_the_rotor_and_the_motors_losses(efficiency, settings):
+    recording = drive(BENCH, ELECTRIC, f"actuator.drive.efficiency={efficiency}", *settings)
+    power, speed = recording["drive.power"][:-1], recording["drive.speed"]
+    at_the_shaft = np.where(power > 0, power * efficiency, power / efficiency)
+    rotor = 0.5 * 0.004 * (speed[-1] ** 2 - speed[0] ** 2)
+    missing = H * at_the_shaft.sum() - rotor - recording["front.energy.shaft"][-1]
+    error = abs(missing) / recording["front.energy.throughput"][-1]
+    print(f"down to {speed.min() / RPM:.0f} rpm, {100 * error:.5f} % missing")
+    assert error < 1e-3
+    assert np.abs(astray(recording)).max() < 1e-3 * recording["front.energy.throughput"][-1]
+
+
+def test_a_motor_without_slip_is_a_constant_speed():
+    stiff = [f"actuator.drive.{each}" for each in ("slip_stiffness=1e4 Nms/rad", "torque_limit=1000 Nm")]
+    electric, constant = drive(BENCH, ELECTRIC, *stiff), drive(BENCH)
+    for name in ("front.bar.angle", "front.motor.pressure", "drive.speed"):
+        assert np.abs(electric[name] - constant[name]).max() < 1e-4 * np.abs(constant[name]).max(), name
+
+
+def test_what_a_weak_motor_cannot_give_its_rotor_does():
+    ample, weak = (drive("bench_step_10deg", ELECTRIC, f"actuator.drive.torque_limit={each} Nm") for each in (12, 0.6))
+    speed = weak["drive.speed"]
+    given, taken = 0.5 * 0.004 * (speed[0] ** 2 - speed.min() ** 2), weak["front.energy.shaft"][np.argmin(speed)]
+    print(f"down to {speed.min() / RPM:.0f} rpm; the rotor gives {given:.0f} of {taken:.0f} J")
+    assert ample["drive.speed"].min() > 0.95 * 3000 * RPM
+    assert weak["drive.power"].max() <= 0.6 * 3000 * RPM / 0.85
+    assert given > 0.5 * taken
+
+
+# ---- the sedan
+
+
+@pytest.mark.parametrize("settings", [(ENGINE,), at(800), at(6000), (ELECTRIC,)], ids=lambda each: each[0])
+def test_the_roll_reduction_factor_with_another_drive(settings):
+    other, constant = (shipped.measured(STEP_STEER, *each).metrics for each in (settings, ()))
+    factors = [each["roll_reduction_factor"].value for each in (other, constant)]
+    print(f"{settings}: factor {factors[0]:.3f}, {factors[1]:.3f} at a constant 3000 rpm")
+    assert factors[0] >= 7
+    assert factors[0] <= factors[1] + 1e-3  # 3000 rpm are enough: more speed gains nothing
+    assert other["energy_audit_error"].value <= 1e-3
+
+
+def test_the_engine_follows_the_road_speed_through_its_gears():
+    recording = shipped.recording(CIRCLE, None, ENGINE)
+    gear, speed = recording["drive.gear"], recording["drive.speed"]
+    ratio = np.array([4.23, 2.52, 1.66, 1.22, 1.0])[gear.astype(int) - 1]
+    assert speed == pytest.approx(ratio * 3.38 * recording["body.speed"] / 0.313)
+    assert gear[0] == 2.0 and gear[-1] == 5.0
+    assert np.all(np.diff(gear) >= 0)  # the car speeds up, and no gear hunts
+    assert speed.min() > 1500 * RPM
+    assert speed[gear < 5].max() <= 2800 * RPM
+    for axle in ("front", "rear"):
+        np.testing.assert_array_equal(recording[f"{axle}.pump.speed"], speed)
+    assert recording["body.lateral_acceleration"].max() / G > 0.8

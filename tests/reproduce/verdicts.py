@@ -1,0 +1,14 @@
+"""What tests ask of a claim."""
+
+from ars_mujoco.reproduce.claim import Claim
+
+REPRODUCED, NOT_REPRODUCED = "reproduced", ("does not follow", "contradicts itself")
+
+
+def ours(claim: Claim) -> list:
+    """Our numbers of a claim, in order."""
+    return [number.value for number in claim.ours]
+
+
+def verdict(claim: Claim) -> str:
+    return str(claim.verdict)
