@@ -144,7 +144,7 @@ def least_pressures(simulation):
             }  # fmt: skip
             least = {name: min(value, least.get(name, value)) for name, value in found.items()}
     axle = world.parameters.stabilizers.front.detail
-    has = (axle.stage == FULL) * ["cylinder"] + (axle.plant == FULL_PLANT) * ["pump", "motor", "gallery"]
+    has = int(axle.stage == FULL) * ["cylinder"] + int(axle.plant == FULL_PLANT) * ["pump", "motor", "gallery"]
     return {name: least[name] for name in has}
 
 
