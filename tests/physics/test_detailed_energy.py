@@ -77,7 +77,7 @@ def test_energy_is_found_again_in_all_four_quadrants(circuit, stage):
     recording = driven((circuit, stage), command)
     shares = quadrants(recording)
     error = np.abs(astray(recording)).max() / recording["front.energy.throughput"][-1]
-    print(f"{circuit}, {stage}: {100 * error:.4f} %, quadrants {[round(share, 1) for share in shares.values()]} J")
+    print(f"{circuit}, {stage}: {100 * error:.4f} %, quadrants {[round(float(share)) for share in shares.values()]} J")
     assert min(shares.values()) > 0.1 * sum(shares.values())
     assert recording["front.energy.recovered"][-1] > 0.05 * recording["front.energy.throughput"][-1]
     assert error < 1e-3
@@ -120,7 +120,6 @@ def test_no_pressure_falls_to_zero_whatever_is_commanded(variant, command, ends,
     if variant[0] == "full" and not charged:
         parameters = parameters | {"charge_pump.displacement": "1e-9 cm^3/rev", "tank_leakage": "1e-12 m^3/s/Pa"}
     least = least_pressures(prepared(variant, parameters, *moves))
-    print(variant, least)
     assert min(least.values()) > 0.0
 
 
