@@ -33,15 +33,15 @@ def one_sided() -> np.record:
     return parameters
 
 
-def bench(cycle: str | Path, *settings: str) -> Simulation:
+def bench(cycle: str | Path, *settings: str, actuator: str | None = None) -> Simulation:
     """The simulation of a bench cycle, with settings as the command line takes them."""
-    inputs = read_inputs(str(cycle), settings=settings)
+    inputs = read_inputs(str(cycle), actuator, settings=settings)
     return prepare(inputs.cycle.value, inputs.actuator.value, inputs.controller.value, inputs.vehicle.value)
 
 
-def drive(cycle: str | Path, *settings: str) -> Recording:
+def drive(cycle: str | Path, *settings: str, actuator: str | None = None) -> Recording:
     """The recording of a bench cycle, with settings as the command line takes them."""
-    return simulate(bench(cycle, *settings))
+    return simulate(bench(cycle, *settings, actuator=actuator))
 
 
 def linearized(parameters: np.record, gain: float = 0.0, at: tuple = AT_REST) -> tuple[np.ndarray, np.ndarray]:

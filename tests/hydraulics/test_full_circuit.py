@@ -103,7 +103,7 @@ def test_at_rest_the_charge_relief_sets_the_gallery_and_the_check_valves_a_littl
     x, supplied = rest(), 0.5e-6 * 50
     leak = 1e-14 * (x[A] - BAR)
     assert x[GALLERY] == pytest.approx(20 * BAR + (supplied - 2 * leak) / 4e-10)
-    assert x[GALLERY] - x[A] == pytest.approx(0.2 * BAR + leak / 1.67e-9)
+    assert x[GALLERY] - x[A] == pytest.approx(0.2 * BAR + leak / 8.33e-10)
     assert x[A] == x[B]
 
 
@@ -217,7 +217,7 @@ def test_a_check_valve_refills_a_side_that_has_fallen_below_the_gallery():
     x = rest()
     x[B] = 5 * BAR
     derivatives, powers = rates(record(), x)
-    flow = 1.67e-9 * (x[GALLERY] - 5.2 * BAR)
+    flow = 8.33e-10 * (x[GALLERY] - 5.2 * BAR)
     leak = 2.25e-13 * (x[A] - x[B]) - 1e-14 * (x[B] - BAR)
     assert derivatives[B] == pytest.approx((flow + leak) / (V_L / 2 * softness(5 * BAR)))
     assert powers[CHECK] == pytest.approx(flow * (x[GALLERY] - 5 * BAR))

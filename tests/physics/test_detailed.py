@@ -12,12 +12,13 @@ from radau_full import NOMINAL, solve
 
 from ars_mujoco.simulation import simulate
 
-# the reference's nominal plant with the shipped line of 3.34 m, oil at 50 degC and fail-safe valve of 20 L/min at 2 bar
+# the reference's nominal plant with the shipped line of 3.34 m, oil at 50 degC, check and fail-safe valves
 SHIPPED = replace(
     NOMINAL,
     V_L=3.34 * np.pi * 0.01**2 / 4,
     density=860 * (1 - 7e-4 * 35),
     viscosity=21.4963e-6,
+    G_c=8.33e-10,
     K_f=20e-3 / 60 / 2e5**0.5,
     q_0=0.05 * 20e-3 / 60,
 )

@@ -1,0 +1,56 @@
+"""The detailed circuits in the rigs: the sedan drives with them, restores bit for bit, and has its interpreted twin."""
+
+import subprocess
+import sys
+
+import mujoco
+import numpy as np
+import pytest
+import shipped
+from test_callback import TWIN, drive_on
+
+from ars_mujoco.callback import installed
+
+S_CURVE, BENCH, FULL = "s_curve_120kmh", "bench_s_curve", "pump_controlled_full"
+STAGES = ("third_order", "reduced", "full")
+
+
+def simulation(cycle, stage, actuator=FULL):
+    return shipped.simulation(cycle, actuator, f"actuator.pump_control={stage}", "duration=1 s")
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_the_sedan_drives_with_full_circuits(stage):
+    recording = shipped.recording(S_CURVE, FULL, f"actuator.pump_control={stage}", "duration=1 s")
+    for axle in ("front", "rear"):
+        for side in ("a", "b"):
+            assert recording[f"{axle}.motor.pressure_{side}"].min() > 1e5
+        assert np.abs(recording[f"{axle}.bar.angle"]).max() > 0.0
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_a_run_restored_in_its_middle_ends_identical(stage):
+    car = simulation(S_CURVE, stage)
+    data = shipped.driven(car, 0.6)
+    state = shipped.state_of(car.model, data)
+    np.testing.assert_array_equal(drive_on(car, shipped.restored(car.model, state), 100), drive_on(car, data, 100))
+
+
+@pytest.mark.parametrize(("stage", "actuator"), [("full", FULL), ("reduced", "pump_controlled")])
+def test_the_interpreted_twin_agrees_to_1e_12(stage, actuator, tmp_path, monkeypatch):
+    bench, steps = simulation(BENCH, stage, actuator), 40
+    data = shipped.driven(bench, 0.7)
+    mujoco.mj_saveModel(bench.model, str(tmp_path / "model.mjb"))
+    np.save(tmp_path / "state.npy", shipped.state_of(bench.model, data))
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
+    subprocess.run([sys.executable, "-c", TWIN, str(tmp_path), bench.rig.NAME, str(steps)], check=True)
+    compiled = []
+    with installed(bench.rig, bench.model, data):
+        for _ in range(steps):
+            mujoco.mj_step(bench.model, data)
+            compiled.append(data.userdata.copy())
+    compiled, interpreted = np.array(compiled), np.load(tmp_path / "interpreted.npy")
+    apart = np.abs(interpreted - compiled).max(axis=0) / np.maximum(np.abs(compiled).max(axis=0), 1e-300)
+    print(f"{stage}: {apart.max():.1e} apart, relative to each number's peak")
+    assert abs(data.userdata.view(bench.rig.WORLD).view(np.recarray)[0].out.front.motor.rate) > 1e-3
+    assert apart.max() < 1e-12
