@@ -27,6 +27,13 @@ CIRCUITS = {"reduced": "pump_controlled", "full": "pump_controlled_full"}  # shi
 STAGES = ("third_order", "reduced", "full")  # of pump control
 
 
+class Axle(StrEnum):
+    """Whose circuit `ars analyze` is of."""
+
+    FRONT = "front"
+    REAR = "rear"
+
+
 class Listing(StrEnum):
     """What `ars list` can list."""
 
@@ -190,6 +197,7 @@ def _cost(row: dict[str, Any]) -> dict[str, str]:
 @app.command()
 def analyze(
     actuator: Annotated[str | None, typer.Option(help="Name or path; else pump_controlled.")] = None,
+    axle: Annotated[Axle, typer.Option(help="Whose circuit.")] = Axle.FRONT,
     controller: Annotated[str | None, typer.Option(help="Name or path; else verification.")] = None,
     settings: Annotated[
         list[str] | None,
@@ -198,18 +206,23 @@ def analyze(
     out: Annotated[Path | None, typer.Option(help="Folder of the results; else runs/analyze.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Linear theory of the front actuator on the bench: poles, margins, responses and the gain's stable region."""
+    """Linear theory of an axle's actuator on the bench: poles, margins, responses and the gain's stable region."""
     with _extra("analyze"):
         from ars_mujoco.analysis import analyze as analysis
+        from ars_mujoco.analysis.loop import loop_of
     inputs = analysis.read_analyzed(actuator, controller, settings or [])
     folder = out or RUNS / "analyze"
+    loop = loop_of(inputs, axle)
+    left_out = analysis.left_out(loop)
     with _progress() as progress:
-        results = analysis.analyze(inputs, folder, progress)
+        results = analysis.analyze(loop, analysis.named(inputs, axle), folder, progress)
     if as_json:
-        _print_json({"folder": str(folder), "analyses": results})
+        _print_json({"folder": str(folder), "analyses": results, "left_out": left_out})
         return
     rows = [{key: row[key] for key in ("quantity", "value", "paper")} for row in analysis.headlines(results)]
-    _print_table(f"{inputs.actuator.name} on the bench, {inputs.controller.name}", rows)
+    _print_table(f"{inputs.actuator.name} {axle} on the bench, {inputs.controller.name}", rows)
+    for reason in dict.fromkeys(left_out.values()):
+        print(f"Left out: {', '.join(name for name in left_out if left_out[name] == reason)}: {reason}")
     print(f"Figures and numbers: {folder}")
 
 

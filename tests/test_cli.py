@@ -1,15 +1,18 @@
 """The command line: what it prints, what it writes, and how it refuses."""
 
 import json
+import math
 import subprocess
 import sys
 import time
+from itertools import product
 
 import pyarrow.parquet as pq
 import pytest
+import yaml
 from typer.testing import CliRunner
 
-from ars_mujoco import cli
+from ars_mujoco import cli, library
 
 BENCH_CYCLE = """\
 title: A small step
@@ -106,9 +109,60 @@ def test_check_fails_a_cycle_that_does_not(ars, tmp_path):
     assert (status, verdict["passed"], len(verdict["failures"])) == (1, False, 1)
 
 
+def losses_csv(path):
+    """Points of a pump of 1.8 cm^3 that loses 3 % of its flow and 5 % of its torque at 6000 rpm and 200 bar."""
+    lines = ["speed (rpm),pressure (bar),displacement (cm^3/rev),flow (L/min),torque (Nm)"]
+    for speed, pressure, stroke in product((1000, 3000, 6000), (0, 100, 200), (0.0, 0.5, 1.0)):
+        flow = 1.8e-3 * (stroke * speed - 6000 * 0.03 * pressure / 200)
+        torque = 0.18 / (2 * math.pi) * (stroke * pressure + 200 * 0.05)
+        lines.append(f"{speed},{pressure},{1.8 * stroke},{flow!r},{torque!r}")
+    path.write_text("\n".join(lines))
+
+
+def test_fitted_losses_are_a_block_that_a_run_accepts(ars, tmp_path):
+    losses_csv(tmp_path / "pump.csv")
+    status, out, _ = ars("fit-losses", "pump.csv", "--orders", "1", "1", "1")
+    assert status == 0
+    assert "R^2" in out and "k_001" in out
+    folder = tmp_path / "runs" / "fit_losses"
+    names = ["fit_losses.json", "fit_losses.png", "fit_losses.svg", "losses.yaml"]
+    assert sorted(path.name for path in folder.iterdir()) == names
+    actuator = yaml.load(library.shipped("actuator")["pump_controlled"].read_text(), yaml.BaseLoader)
+    actuator["front"]["pump"] |= yaml.load((folder / "losses.yaml").read_text(), yaml.BaseLoader)
+    (tmp_path / "fitted.yaml").write_text(yaml.safe_dump(actuator))
+    status, out, _ = ars("run", "small.yaml", "--actuator", "fitted.yaml", "--json")
+    assert status == 0
+    (run,) = json.loads(out)["runs"].values()
+    assert run["metrics"]["energy_audit_error"]["value"] < 1e-3
+    assert run["inputs"]["actuator"]["values"]["front"]["pump"]["flow_loss"]["coefficients"]["k_001"] == (
+        pytest.approx(0.03)
+    )
+
+
+def test_a_fit_is_machine_readable(ars, tmp_path):
+    losses_csv(tmp_path / "pump.csv")
+    status, out, _ = ars("fit-losses", "pump.csv", "--orders", "0", "0", "1", "--out", "here", "--json")
+    result = json.loads(out)
+    assert (status, result["folder"], result["points"], result["orders"]) == (0, "here", 27, [0, 0, 1])
+    assert result["flow_loss"]["coefficients"]["k_001"] == pytest.approx(0.03)
+    assert result["torque_loss"]["coefficients"]["k_000"] == pytest.approx(0.05)
+
+
+def test_a_run_that_leaves_the_range_of_its_losses_says_so(ars):
+    narrow = "actuator.front.pump.torque_loss.validity.pressure=[0 bar, 5 bar]"
+    status, out, _ = ars("run", "small.yaml", "--set", narrow)
+    assert status == 0
+    assert "loss_extrapolation: the losses of the front pump are extrapolated from 0.0" in out
+    status, out, _ = ars("run", "small.yaml", "--set", narrow, "--json")
+    (run,) = json.loads(out)["runs"].values()
+    assert run["metrics"]["loss_extrapolation"]["value"] > 0.0
+    assert "the front pump leaves the range of its losses" in [event["text"] for event in run["events"]]
+
+
 @pytest.mark.parametrize(
     ("arguments", "error"),
     [
+        (["fit-losses", "none.csv", "--orders", "1", "1", "1"], "none.csv: cannot be read: "),
         (["run", "smal.yaml"], "no cycle 'smal.yaml'; did you mean 'small.yaml'?"),
         (
             ["run", "small.yaml", "--set", "duraton=3 s"],

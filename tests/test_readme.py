@@ -19,6 +19,7 @@ COMMANDS = [
     for line in block.splitlines()
     if line.startswith("ars ")
 ]
+(POINTS,) = [block for language, block in BLOCKS if language == "csv"]
 LAW, PROGRAM = [block for language, block in BLOCKS if language == "python"]
 
 
@@ -28,6 +29,7 @@ def test_every_command_of_the_readme_runs(command, tmp_path, monkeypatch):
         pytest.skip("a benchmark is run by name: it wants an idle machine")
     monkeypatch.chdir(tmp_path)
     Path("my_controller.py").write_text(LAW)
+    Path("pump.csv").write_text(POINTS)
     result = CliRunner().invoke(app, shlex.split(command)[1:])
     assert result.exit_code == 0, result.output
 

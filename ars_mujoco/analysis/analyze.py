@@ -9,13 +9,15 @@ from ars_mujoco.analysis import (
     compensators,
     frequency_response,
     hydraulic_poles,
+    line_inertance,
     margins,
+    pump_control_stages,
     root_locus,
     stable_region,
     steady_state,
 )
 from ars_mujoco.analysis.figure import save
-from ars_mujoco.analysis.loop import loop_of
+from ars_mujoco.analysis.loop import Loop
 from ars_mujoco.errors import InputError
 from ars_mujoco.inputs import Inputs, read_inputs
 from ars_mujoco.recording.folder import write_whole
@@ -32,8 +34,11 @@ ANALYSES = {
         stable_region,
         steady_state,
         compensators,
+        pump_control_stages,
+        line_inertance,
     )
 }
+NO_BOX = "Table 2's C_H is no parameter of a full circuit, where it follows from volume and bulk modulus"
 
 Progress = Callable[[str, float], None]  # (name of the analysis, share of it done)
 
@@ -47,13 +52,31 @@ def read_analyzed(actuator: str | None, controller: str | None, settings: list[s
     return inputs
 
 
-def analyze(inputs: Inputs, folder: Path, progress: Progress) -> dict[str, dict[str, Any]]:
-    """Write NAME.json, NAME.png and NAME.svg of each analysis into `folder`; returns the results by name."""
-    loop, results = loop_of(inputs), {}
+def left_out(loop: Loop) -> dict[str, str]:
+    """The analyses that have no meaning for `loop`, each with the reason."""
+    reasons = {}
+    if loop.has_full_circuit:
+        reasons |= {"hydraulic_poles": NO_BOX, "stable_region": NO_BOX}
+    else:
+        reasons["line_inertance"] = "needs lines with a mass: circuit full, as in pump_controlled_full"
+    if loop.is_detailed:
+        reasons["compensators"] = "needs the hydraulic pole pair alone: circuit reduced, pump control third_order"
+    if loop.circuit.control_cylinder.mass == 0.0:
+        reasons["pump_control_stages"] = "needs the actuator's oil, metering_edge and control_cylinder"
+    return reasons
+
+
+def analyze(loop: Loop, named: dict[str, Any], folder: Path, progress: Progress) -> dict[str, dict[str, Any]]:
+    """Write NAME.json, NAME.png and NAME.svg of each analysis that `loop` allows into `folder`; returns the results by
+    name. `named` tells in each what was analysed.
+    """
+    results = {}
     folder.mkdir(parents=True, exist_ok=True)
     for name, module in ANALYSES.items():
+        if name in left_out(loop):
+            continue
         progress(name, 0.0)
-        results[name] = result = {"schema_version": SCHEMA_VERSION, "inputs": _named(inputs), **module.compute(loop)}
+        results[name] = result = {"schema_version": SCHEMA_VERSION, "inputs": named, **module.compute(loop)}
         text = json.dumps(result, allow_nan=False) + "\n"
         write_whole(folder / f"{name}.json", lambda part, text=text: part.write_text(text))
         save(module.draw(result), folder, name)
@@ -63,12 +86,12 @@ def analyze(inputs: Inputs, folder: Path, progress: Progress) -> dict[str, dict[
 
 def headlines(results: dict[str, dict[str, Any]]) -> list[dict[str, str]]:
     """Rows of a short table of `results`: quantity, value, and what the paper says."""
-    return [{"paper": ""} | row for name, module in ANALYSES.items() for row in module.headline(results[name])]
+    return [{"paper": ""} | row for name, result in results.items() for row in ANALYSES[name].headline(result)]
 
 
-def _named(inputs: Inputs) -> dict[str, Any]:
+def named(inputs: Inputs, axle: str) -> dict[str, Any]:
     """Names, hashes and settings of what was analysed."""
     record = inputs.record()
-    return {
+    return {"axle": axle} | {
         kind: {key: record[kind][key] for key in ("name", "sha256", "overrides")} for kind in record if kind != "cycle"
     }

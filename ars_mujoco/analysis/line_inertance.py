@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from ars_mujoco.analysis.figure import ACCENT, DARK, DASHES, LIGHT, MIDDLE_GREY, label
+from ars_mujoco.analysis.figure import ACCENT, DARK, DASHES, LIGHT, MIDDLE_GREY, label, legend_beside
 from ars_mujoco.analysis.linearization import actuator, plant
 from ars_mujoco.analysis.loop import BOTH_SHUT, LOW_SIDE_HELD, Loop
 from ars_mujoco.analysis.margins import FASTEST, WANTED
@@ -124,7 +124,7 @@ def headline(result: dict[str, Any]) -> list[dict[str, str]]:
 
 def draw(result: dict[str, Any]) -> Figure:
     """Hydraulic frequency and stable gain over the length of the line, and the steps."""
-    figure = Figure(figsize=(12.0, 4.2), layout="constrained")
+    figure = Figure(figsize=(14.0, 4.2), layout="constrained")
     frequency, gain, steps = figure.subplots(1, 3)
     for checks, dash in zip(CHECKS, DASHES, strict=False):
         for way, colour in (("without", MIDDLE_GREY), ("with", DARK)):
@@ -137,7 +137,7 @@ def draw(result: dict[str, Any]) -> Figure:
         ax.set_ylim(bottom=0.0)
     label(frequency, "Hydraulic frequency", "length of the line (m)", "frequency (rad/s)", legend=False)
     label(gain, "Stability boundary", "length of the line (m)", "K_p (1/rad)", legend=False)
-    frequency.legend(fontsize=7, frameon=False)
+    legend_beside(figure, frequency)
     run = result["steps"]
     steps.plot(run["time"], run["with"], color=LIGHT, lw=0.9, label="with the oil's mass")
     steps.plot(run["time"], run["without"], color=DARK, lw=1.1, label="without")

@@ -38,7 +38,7 @@ OUTPUTS = ["angle", "pressure"]
 # small part of w_s
 NUDGES = np.array([1e-3, 1e-2, 1e3, 1e3, 1e-3, 1e-6] + [1.0] * FLOW_A + [1e-9] * (GALLERY - FLOW_A) + [1.0, 1e-4, 1e-6])
 COMMAND_NUDGE = 1e-3
-LIFT = 1e3  # Pa, by which a line is lifted for its check valve to be shut
+LIFT = 1e2  # Pa, by which a line is lifted for its check valve to be shut; at rest it is open by a tenth of that
 
 
 def plant_states(loop: Loop) -> dict[str, int]:
@@ -76,9 +76,9 @@ def hydraulic_matrix(loop: Loop) -> np.ndarray:
     return A[np.ix_(own, own)]
 
 
-def pump_control(loop: Loop) -> control.StateSpace:
+def pump_control(loop: Loop, dry_friction: bool = False) -> control.StateSpace:
     """The inner loop alone: from the stroke command (1) to the stroke (1)."""
-    A, B = state_matrices(loop)
+    A, B = state_matrices(loop, dry_friction)
     names = list(control_states(loop))
     own = slice(len(names))
     C = [[float(name == "stroke") for name in names]]

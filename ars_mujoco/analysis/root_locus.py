@@ -67,8 +67,8 @@ def draw(result: dict[str, Any]) -> Figure:
 
 
 def _break_gains(system: control.StateSpace) -> list[float]:
-    """Gains at which two branches of the root locus of a system without zeros meet on the real axis: where -1/system
-    has an extreme.
+    """Gains at which two branches of the root locus meet on the real axis, where -1/system has an extreme; the system
+    has no zeros.
     """
     meetings = np.roots(np.polyder(np.poly(system.A)))
     gains = [-1.0 / system(s).real for s in meetings if abs(s.imag) < 1e-6 * abs(s)]

@@ -20,7 +20,7 @@ class Oil(Parameters):
     bulk_modulus: Quantity("Pa", gt=0)  # K, of the liquid alone, at 50 degC
     air: Number(gt=0, lt=1)  # a_0, undissolved air at 1 bar, share of volume; without any, pressures could pass zero
     density: Quantity("kg/m^3", gt=0)  # at 15 degC
-    temperature: Quantity("K", ge=233.149, le=423.15)
+    temperature: Quantity("K", ge=233.15 - 1e-6, le=423.15)  # -40 degC, which is no round number of K
     viscosity_40: Quantity("m^2/s", ge=2e-6)  # kinematic, at 40 degC
     viscosity_100: Quantity("m^2/s", ge=2e-6)  # at 100 degC
 

@@ -179,7 +179,7 @@ def ideal(lumps):
     """The axle without any loss."""
     parameters = record(
         lumps, pump={"leakage": 0.0}, motor={"leakage": 0.0, "coulomb_friction": 0.0, "viscous_friction": 0.0},
-        fluid={"viscosity": 0.0}, fail_safe_valve={"flow": 1e9},
+        fluid={"viscosity": 1e-60}, fail_safe_valve={"flow": 1e9},
     )  # fmt: skip
     parameters.circuit.pump.torque_loss.norm = parameters.detail.tank_leakage = 0.0
     return parameters
@@ -190,7 +190,7 @@ def ideal(lumps):
 def test_an_ideal_pump_gives_an_ideal_motor_the_power_of_its_shaft(lumps, stroke, load):
     """In steady motion D w = X V_p n and M w = X V_p n dp, in all four quadrants."""
     x, flow = rest(lumps), stroke * 1.8e-6 * 50
-    x[A : A + lumps + 1], x[B : B + lumps + 1] = (50 + load / 2) * BAR, (50 - load / 2) * BAR
+    x[A : A + lumps + 1], x[B : B + lumps + 1] = (70 + load / 2) * BAR, (70 - load / 2) * BAR
     x[FLOW_A : FLOW_A + lumps], x[FLOW_B : FLOW_B + lumps] = flow, -flow
     x[RATE] = flow / D
     derivatives, powers = rates(ideal(lumps), x, stroke, twist=-D * load * BAR / 5700)
@@ -220,7 +220,7 @@ def test_a_check_valve_refills_a_side_that_has_fallen_below_the_gallery():
     flow = 1.67e-9 * (x[GALLERY] - 5.2 * BAR)
     leak = 2.25e-13 * (x[A] - x[B]) - 1e-14 * (x[B] - BAR)
     assert derivatives[B] == pytest.approx((flow + leak) / (V_L / 2 * softness(5 * BAR)))
-    assert powers[CHECK] == pytest.approx(flow * (x[GALLERY] - 5 * BAR) + 0.5e-6 * 0, rel=1e-3)
+    assert powers[CHECK] == pytest.approx(flow * (x[GALLERY] - 5 * BAR))
 
 
 def test_an_open_bypass_passes_60_litres_a_minute_at_10_bar():
@@ -260,7 +260,9 @@ def test_what_shaft_and_charge_pump_give_is_stored_or_lost_at_every_instant(lump
 def test_every_loss_but_the_capacitances_costs_at_any_state(lumps):
     parameters, random = record(lumps), np.random.default_rng(lumps)
     for _ in range(300):
-        _, powers = rates(parameters, any_state(lumps, random), random.uniform(-1.2, 1.2), random.uniform(-0.5, 0.5))
+        x = any_state(lumps, random)
+        x[FAIL_SAFE] = max(x[FAIL_SAFE], 0.05)  # shut, it stops the oil within 60 us, whoever pays
+        _, powers = rates(parameters, x, random.uniform(-1.2, 1.2), random.uniform(-0.5, 0.5))
         assert powers[LOSSES].min() >= -1e-9 * np.abs(powers).max()
 
 

@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 from bench import circuit
 
-from ars_mujoco.hydraulics.pump import ideal_flow, torque_loss
+from ars_mujoco.actuators.actuator import Actuator
+from ars_mujoco.errors import InputError
+from ars_mujoco.files import override, read
+from ars_mujoco.hydraulics.pump import extrapolation, flow_loss, ideal_flow, torque_loss
 
 PUMP = circuit().pump
 BAR = 1e5
@@ -32,6 +35,39 @@ def test_each_coefficient_has_its_own_variable():
     assert torque_loss(fast, 0.0, 0.0) - idle == pytest.approx(5.157 * 0.020)
     assert torque_loss(PUMP, 0.0, 90 * BAR) - idle == pytest.approx(5.157 * 0.0125)
     assert torque_loss(PUMP, 0.5, 90 * BAR) - idle == pytest.approx(5.157 * (0.0125 + 0.0075))
+
+
+def test_the_shipped_pump_loses_flow_to_its_linear_leakage_alone():
+    for pressure in (180 * BAR, -3 * BAR, 0.0):
+        assert flow_loss(PUMP, 0.7, pressure) == 2.25e-13 * pressure
+
+
+def test_a_flow_loss_comes_on_top_of_the_leakage():
+    pump = circuit().pump
+    pump.flow_loss = pump.torque_loss  # any polynomial, here of k_000, k_010, k_001 and k_101
+    pump.flow_loss.norm = 9e-5
+    share = 0.020 + 0.020 + 0.025 + 0.030
+    for side in (1, -1):
+        expected = side * (9e-5 * share + 2.25e-13 * 180 * BAR)
+        assert flow_loss(pump, 1.0, side * 180 * BAR) == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_range_of_either_loss_counts():
+    pump = circuit().pump
+    pump.flow_loss = pump.torque_loss
+    assert extrapolation(PUMP, -1.3, 299 * BAR) == 0.0
+    assert extrapolation(PUMP, 1.0, -330 * BAR) == pytest.approx(0.1)
+    pump.flow_loss.limits[2, 1] = 200 * BAR
+    assert extrapolation(pump, 1.0, 220 * BAR) == pytest.approx(0.1)
+
+
+def test_a_speed_outside_the_range_of_a_loss_is_refused():
+    setting = override("front.pump.speed=7000 rpm")
+    with pytest.raises(InputError) as refused:
+        read(Actuator, "pump_controlled", "actuator", [setting])
+    assert "front.pump: speed: 7000 rpm is outside the range of torque_loss; allowed: 500 to 6500 rpm" in str(
+        refused.value
+    )
 
 
 def test_the_loss_is_the_same_cost_in_all_four_quadrants():

@@ -1,6 +1,7 @@
 """The reduced circuit as a whole: closed forms of its parts at work together, and its energy at every instant."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 from records import blank
 
 from ars_mujoco.hydraulics.line import capacitance, middle_volume
+from ars_mujoco.hydraulics.loss_polynomial import FlowLoss
 from ars_mujoco.hydraulics.reduced_circuit import (
     CircuitEnergy,
     CircuitState,
@@ -19,6 +21,7 @@ from ars_mujoco.hydraulics.reduced_circuit import (
     stored_energy,
 )
 from ars_mujoco.hydraulics.vane_motor import stop_torque
+from ars_mujoco.parameters import fill
 
 BAR = 1e5
 SHIPPED = circuit()
@@ -119,7 +122,19 @@ def test_dry_friction_holds_the_motor_like_3516_nms_per_rad_at_standstill():
     assert poles.real.min() == pytest.approx(-20060, rel=1e-3)
 
 
-@BOTH
+def lossy():
+    """The circuit with a flow loss of second order, part of it there without pressure."""
+    parameters = circuit()
+    loss = FlowLoss.model_validate({
+        "norm": "5.4 L/min", "normal_speed": "3000 rpm", "normal_pressure": "180 bar",
+        "coefficients": {"k_000": 0.003, "k_100": 0.004, "k_011": 0.01, "k_101": -0.005, "k_102": 0.02, "k_220": 0.002},
+        "validity": {"stroke": ["0", "1"], "speed": ["0 rpm", "6500 rpm"], "pressure": ["0 bar", "300 bar"]},
+    })  # fmt: skip
+    fill(parameters.pump.flow_loss, loss)
+    return parameters
+
+
+@pytest.mark.parametrize("parameters", [SHIPPED, one_sided(), lossy()], ids=["series", "one_sided", "polynomial"])
 @given(STATES)
 def test_what_the_shaft_gives_is_stored_or_lost_at_every_instant(parameters, drawn):
     *now, twist = drawn
@@ -150,11 +165,23 @@ def along(now, derivatives, step):
 
 def test_every_loss_but_the_capacitances_costs_at_any_state():
     random = np.random.default_rng(1)
+    parameters = lossy()
     for now in random.uniform(-1, 1, (500, 6)) * [1, 100, 1.2, 250 * BAR, 0.7, 2]:
-        _, (_, loss, pump_leakage, motor_leakage, relief, friction, _, _, _) = rates(
-            SHIPPED, STIFFNESS, tuple(now), 0.0, 0.0
+        _, (_, torque_loss, pump_leakage, motor_leakage, relief, friction, _, _, _) = rates(
+            parameters, STIFFNESS, tuple(now), 0.0, 0.0
         )
-        assert min(loss, pump_leakage, motor_leakage, relief, friction) >= 0.0
+        assert min(torque_loss, pump_leakage, motor_leakage, relief, friction) >= 0.0
+
+
+def test_an_ideal_pump_takes_from_its_shaft_what_it_gives_the_oil_or_gives_it_back():
+    parameters = circuit()
+    parameters.pump.leakage = parameters.pump.torque_loss.norm = 0.0
+    for stroke, pressure in product((0.5, -0.5), (100 * BAR, -100 * BAR)):
+        _, (shaft, torque_loss, pump_leakage, *_) = rates(
+            parameters, STIFFNESS, (0.0, 0.0, stroke, pressure, 0.0, 0.0), 0.0, 0.0
+        )
+        assert shaft == pytest.approx(stroke * 9e-5 * pressure)
+        assert torque_loss == pump_leakage == 0.0
 
 
 def test_advancing_leaves_the_state_it_starts_from():

@@ -60,6 +60,24 @@ def test_shaft_work_is_found_again_to_a_thousandth_of_the_throughput(command, pa
     assert np.abs(astray(recording)).max() < 1e-3 * recording["front.energy.throughput"][-1]
 
 
+FLOW_LOSS = """{norm: 5.4 L/min, normal_speed: 3000 rpm, normal_pressure: 180 bar,
+    coefficients: {k_000: 0.003, k_100: 0.004, k_011: 0.01, k_101: -0.005, k_102: 0.02},
+    validity: {stroke: [0, 1], speed: [500 rpm, 6000 rpm], pressure: [0 bar, 300 bar]}}"""
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_it_is_found_again_with_a_polynomial_flow_loss_as_a_pump_and_as_a_motor(side):
+    command = [(0.2 * i, angle, "deg") for i, angle in enumerate((0, 10, 2, 12, 0))]
+    recording = run(command, parameters={"pump.flow_loss": FLOW_LOSS, "pump.torque_loss.norm": "1 Nm"}, side=side)
+    oil = recording["front.pump.flow"] * recording["front.motor.pressure"]
+    assert recording["front.energy.recovered"][-1] > 5.0
+    assert oil.max() > 500.0 and oil.min() < -500.0
+    assert np.all(recording["front.pump.leakage_power"] >= 0.0)
+    error = np.abs(astray(recording)).max() / recording["front.energy.throughput"][-1]
+    print(f"{100 * error:.5f} %, {recording['front.energy.recovered'][-1]:.0f} J recovered")
+    assert error < 1e-3
+
+
 @pytest.mark.parametrize("travel", [5.0, 20.0, 40.0])
 def test_it_is_found_again_where_the_ends_move_too(travel):
     ends = [(0.2 * i, side * travel, "mm") for i, side in enumerate((0, 1, -1, 1, 0))]
