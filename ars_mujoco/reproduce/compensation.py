@@ -35,11 +35,12 @@ def pressure_feedback(evidence: Evidence) -> Finding:
             drawn < (1.0 + FUTILE) * damping and fed_back < (1.0 + FUTILE) * without,
             does_not_follow("the linear loop with a continuous unit"),
         ),
-        why="The best of all gains and corner frequencies. Through the pump control a stroke lags "
-        f"{row['lag']:.0f} deg at {actuator['frequency']:.0f} rad/s, and a flow that comes this late does not damp. "
-        "The sign turned round suits that lag: over Table 2's corners it takes the least damping from "
-        f"{corners['without']['damping']:.3f} to {corners['reversed']['damping']:.3f}, until the unit's own delay "
-        "turns the phase on.",
+        why="The best of all gains and corner frequencies, damping counted by the lesser of a motor that moves and one "
+        f"that dry friction holds. Through the pump control a stroke lags {row['lag']:.0f} deg at "
+        f"{actuator['frequency']:.0f} rad/s, and a flow that comes this late does not damp. The sign turned round "
+        "would suit that lag while the motor moves, but drives the pressure up where it is held: over Table 2's "
+        f"corners the least damping goes from {corners['without']['damping']:.3f} to "
+        f"{corners['reversed']['damping']:.3f}.",
         figure=partial(compensators.draw, evidence.compensators),
     )
 
@@ -102,22 +103,22 @@ def pump_over_hydraulics(evidence: Evidence) -> Finding:
     result = evidence.compensators
     found, ratios = result["over_ratio"]["this"], np.array(result["ratio"])
     drawn, turned = (np.array(found[sign]) > IMPROVED * found["damping"] for sign in ("as_drawn", "reversed"))
-    own = int(np.argmin(np.abs(np.log(ratios / found["own_ratio"]))))
     needed = min(ratios[drawn].tolist(), default=None)
+    faster = needed is not None and needed > 1.0
     return Finding(
         ours=(
             Number("servo pump over hydraulic poles, here", found["own_ratio"]),
             Number("least ratio at which it doubles the damping", needed),
+            Number("most damping at any ratio", max(found["as_drawn"])),
         ),
-        verdict=(
-            does_not_follow("the linear loop") if drawn[own]
-            else holds_only("with the sign as drawn") if turned[own]
-            else holds(drawn.any(), does_not_follow("the linear loop"))
+        verdict=holds(
+            faster and not turned[ratios < 1.0].any(),
+            holds_only("with the sign as drawn") if faster else does_not_follow("the linear loop"),
         ),
         why="The whole pump control made faster or slower, the best gain and corner frequency for each. As drawn, the "
-        "pump control has to come before the hydraulic poles. With the sign turned round it can damp from beyond them, "
-        "where the lag nears 180 deg.",
-    )  # fmt: skip
+        "pump control has to be the faster one. With the sign turned round it can damp where the pump control is a "
+        "little slower than the hydraulic poles and lags by 180 deg.",
+    )
 
 
 def _row(rows: list[dict[str, Any]], timing: tuple[float, float]) -> dict[str, Any]:

@@ -52,6 +52,7 @@ class Evidence:
         self.pump_share, self.leakages = float(pump.leakage) / self.k, TABLE_2["leakage"]
         self.cylinder, self.edge = circuit.control_cylinder, circuit.metering_edge
         self.full_inputs = read_inputs(S_CURVE, FULL)
+        self.robot_inputs = read_inputs(compensators.ROBOT)
         self.full_loop = loop_of(self.full_inputs)
         self.pipe, self.fluid = self.full_loop.detail.pipe, self.full_loop.detail.fluid
 
@@ -70,7 +71,7 @@ class Evidence:
 
     def record(self) -> list[dict[str, Any]]:
         """Names, hashes and settings of all that was analysed and run so far."""
-        used = [self.inputs, self.full_inputs, *(inputs for inputs, _ in self.runs.values())]
+        used = [self.inputs, self.full_inputs, self.robot_inputs, *(inputs for inputs, _ in self.runs.values())]
         return [
             {part: {key: each[part][key] for key in ("name", "sha256", "overrides")} for part in each}
             for each in (inputs.record() for inputs in used)

@@ -100,7 +100,9 @@ code { font-size: .95em; }
 }
 @media print {
   @page { size: A4 landscape; margin: 12mm; }
-  body { max-width: none; padding: 0; font-size: 9.5pt; }
+  body { max-width: none; padding: 0; font-size: 8.5pt; }
+  th, td { padding: .3rem .8rem .3rem 0; }
+  td { font-size: 8.5pt; }
   tr { break-inside: avoid; }
   thead { display: table-header-group; }
   h2 { break-after: avoid; }
@@ -128,7 +130,7 @@ GREEK = {name: chr(code) for name, code in {
 }.items()}  # fmt: skip
 SYMBOL = re.compile(rf"\b({'|'.join(GREEK)})(?=_|\b)")
 INDEX = re.compile(r"(?<![\w.])([A-Za-z\u0370-\u03ff])_(\w+)")
-POWER = re.compile(r"\^(-?\d+|\([^)]+\))")
+POWER = re.compile(r"\^(-?\w+|\([^)]+\))")
 EXPONENT = re.compile(r"(\d)e([+-])0*(\d+)\b")
 
 
@@ -204,7 +206,7 @@ def _row(claim: Claim) -> str:
         f"<td>{text}</td>",
         f'<td data-label="paper">{_numbers(claim.paper)}</td>'
         if claim.paper
-        else '<td data-label="paper"><span class="name">in words</span></td>',
+        else '<td data-label="paper"><span class="name">see claim</span></td>',
         f'<td data-label="ours">{_numbers(claim.ours)}</td>',
         f'<td data-label="verdict"><span class="verdict {MARKS[claim.verdict.kind]}">'
         f"{typeset(str(claim.verdict))}</span></td>",

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from ars_mujoco.analysis import compensators, frequency_response
@@ -17,7 +18,7 @@ def coarse():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(frequency_response, "FREQUENCIES", frequency_response.FREQUENCIES[::4])
         patch.setattr(compensators, "TIMINGS", ((0.0, 0.0), (1e-3, 0.0), (5e-3, 0.0)))
-        patch.setattr(compensators, "RATIOS", compensators.RATIOS[::5])
+        patch.setattr(compensators, "RATIOS", np.geomspace(0.2, 10.0, 9))
         for name in ("GAINS", "CORNERS", "NEW_DAMPINGS"):
             patch.setattr(compensators, name, getattr(compensators, name)[::2])
         yield

@@ -89,6 +89,7 @@ def test_what_a_claim_says_is_escaped():
         ("K_p V_p n/D", "K<sub>p</sub> V<sub>p</sub> n/D"),
         ("omega_H and tau_H", "\u03c9<sub>H</sub> and \u03c4<sub>H</sub>"),
         ("m^3/s^2", "m<sup>3</sup>/s<sup>2</sup>"),
+        ("V^i/V_norm", "V<sup>i</sup>/V<sub>norm</sub>"),
         ("1.17e-13", "1.17\u2009\u00b7\u200910<sup>\u221213</sup>"),
         ("B in (m^5/kg)^(1/2)", "B in (m<sup>5</sup>/kg)<sup>(1/2)</sup>"),
         ("+-10 % <= 3", "\u00b110 % \u2264 3"),

@@ -2,8 +2,6 @@
 
 from ars_mujoco.reproduce.claim import Claim
 
-REPRODUCED, NOT_REPRODUCED = "reproduced", ("does not follow", "contradicts itself")
-
 
 def ours(claim: Claim) -> list:
     """Our numbers of a claim, in order."""
