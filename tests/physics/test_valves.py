@@ -5,22 +5,18 @@ import pytest
 import shipped
 from detailed import ACTUATORS
 
-from ars_mujoco.signal import signal
-from ars_mujoco.simulation import simulate
-
 BAR = 1e5
 SWITCHED = 0.3  # s, by when the motor has reached its 10 deg
-SUBSTEPS = 32  # an open bypass is faster (4.5e4 1/s) than what the shipped number was looked for
 STROKE_TIME = 0.02  # s, of both valves
 
 
 def run(**commands):
     """The step to 10 deg with valves commanded from SWITCHED on."""
-    own, world = shipped.own_copy(shipped.simulation("bench_step_10deg", ACTUATORS["full"]))
-    world.parameters.stabilizers.front.substeps = SUBSTEPS
-    for valve, (before, after) in commands.items():
-        world.parameters.stabilizers.front_valves[valve] = signal([0.0, SWITCHED], [before, after], "step")
-    recording = simulate(own)
+    settings = [
+        f"valves.front_{valve}={{join: step, knots: [[0 s, {before}], [{SWITCHED} s, {after}]]}}"
+        for valve, (before, after) in commands.items()
+    ]
+    recording = shipped.recording("bench_step_10deg", ACTUATORS["full"], *settings)
     return recording, recording.time > SWITCHED + 1.5 * STROKE_TIME
 
 
