@@ -63,6 +63,7 @@ def full_rates(circuit, detail, bar_stiffness, x, dx, power, stroke, twist, bypa
     """
     lumps = int(detail.pipe.lumps)
     tank, gallery = circuit.metering_edge.return_pressure, x[GALLERY]
+    dx[:] = 0.0  # of the nodes that a line of fewer lumps does not have: the record is shared by lines of other lumps
     dx[BYPASS] = opening_rate(detail.bypass_valve, x[BYPASS], bypass_command)
     dx[FAIL_SAFE] = opening_rate(detail.fail_safe_valve, x[FAIL_SAFE], fail_safe_command)
     power[LINE] = 0.0

@@ -43,9 +43,9 @@ def substeps(circuit, bar_stiffness: float, step: float) -> int:
 def detailed_substeps(axle, step: float, bypassed: bool) -> int:
     """The same for the plant of a detailed circuit, an `axle.Axle` record; its pump control takes implicit steps.
 
-    Looked at also with open check valves and, where it will be `bypassed`, an open bypass valve.
+    Looked at also with open check valves, a shut fail-safe valve and, where it will be `bypassed`, an open bypass valve.
     """
-    states = np.zeros((5, STATES))
+    states = np.zeros((6, STATES))
     for state in states:
         start_plant(axle, state)
     states[:, BYPASS] = bypassed
@@ -53,6 +53,7 @@ def detailed_substeps(axle, step: float, bypassed: bool) -> int:
     states[2, A] += 1.1 * axle.circuit.relief_valve.pressure
     states[3, ANGLE] = 1.01 * axle.circuit.motor.stop_angle
     states[4, GALLERY] *= 2.0
+    states[5, FAIL_SAFE] = 0.0
     return _fewest([_slopes(partial(_plant_rates, axle), state, PLANT_NUDGES) for state in states], step)
 
 
