@@ -204,7 +204,6 @@ def _report_circuit(circuit, now, out):
     out.motor.pressure, out.motor.rate = state.pressure, state.rate
     out.pump.speed, out.pump.stroke = circuit.pump.speed, state.stroke
     out.pump.flow = circuit.pump.displacement * circuit.pump.speed * min(max(state.stroke, -1.0), 1.0)
-    out.pump.extrapolation = extrapolation(circuit.pump, state.stroke, state.pressure)
     out.energy.shaft, out.energy.recovered = energy.shaft, energy.recovered
     out.energy.pump_torque_loss, out.energy.pump_leakage = energy.pump_torque_loss, energy.pump_leakage
     out.energy.motor_leakage, out.energy.relief = energy.motor_leakage, energy.relief
@@ -222,6 +221,7 @@ def _report_reduced(axle, now, out, twist):
     shaft, loss, pump_leakage, motor_leakage, relief, friction, _, motor, _ = powers
     out.motor.output_power, out.motor.friction_power, out.motor.leakage_power = motor, friction, motor_leakage
     out.pump.shaft_power, out.pump.loss_power, out.pump.leakage_power = shaft, loss, pump_leakage
+    out.pump.extrapolation = extrapolation(circuit.pump, state.stroke, state.pressure)
     out.relief.power, out.charge.power = relief, circuit.charge_power
     oil, torsion, inertia, stop = stored_energy(circuit, axle.stiffness, state, twist)
     out.energy.oil, out.energy.bar, out.energy.inertia = oil, torsion + stop, inertia
@@ -235,6 +235,7 @@ def _report_detailed(axle, now, out, twist, work):
     out.motor.leakage_power, out.pump.leakage_power = power[MOTOR_LEAKAGE], power[PUMP_LEAKAGE]
     out.pump.shaft_power, out.pump.loss_power, out.relief.power = power[SHAFT], power[TORQUE_LOSS], power[RELIEF]
     out.charge.power = power[CHARGE] + control_power(circuit, detail, control_state(now))
+    out.pump.extrapolation = extrapolation(circuit.pump, now.circuit.stroke, x[A] - x[B])
     out.pump.control_pressure = now.detail.p_a - now.detail.p_b
     if detail.plant != FULL_PLANT:
         oil, torsion, inertia, stop = stored_energy(circuit, axle.stiffness, now.circuit, twist)
