@@ -43,7 +43,7 @@ class PumpControlled(Parameters):
     """The pump-controlled active bar, front and rear, each with the reduced circuit."""
 
     kind: Literal["pump_controlled"]
-    circuit: Literal["reduced"] = "reduced"
+    circuit: Literal["reduced", "full"] = "reduced"  # `full` is the class below; here for an error to list both
     pump_control: Literal["third_order", "reduced", "full"] = "third_order"  # stage of simplification
     drive: Drive = Constant(kind="constant")
     front: ReducedCircuit

@@ -11,6 +11,7 @@ to zero: a line that is drawn empty cavitates. A line is N lumps of inertance be
 """
 
 import numpy as np
+from pydantic import ValidationInfo, field_validator
 
 from ars_mujoco.hydraulics.bypass_valve import BypassValve, bypass_flow
 from ars_mujoco.hydraulics.charge_pump import ChargePump, charge_flow, charge_power, charge_relief_flow
@@ -53,6 +54,19 @@ class FullCircuit(Circuit):
     bypass_valve: BypassValve
     fail_safe_valve: FailSafeValve
     tank_leakage: Quantity("m^3/s/Pa", ge=0)  # of one side to the tank
+
+    @field_validator("check_valve")
+    @classmethod
+    def _charges_the_lines(cls, check_valve: CheckValve, info: ValidationInfo) -> CheckValve:
+        edge, charge = info.data.get("metering_edge"), info.data.get("charge_pump")
+        opening = check_valve.opening_pressure
+        if edge and charge and charge.relief_pressure <= edge.return_pressure + opening:
+            raise ValueError(
+                f"an opening_pressure of {1e-5 * opening:.4g} bar leaves the lines without a charge; allowed: less than "
+                f"charge_pump.relief_pressure ({1e-5 * charge.relief_pressure:.4g} bar) less "
+                f"metering_edge.return_pressure ({1e-5 * edge.return_pressure:.4g} bar)"
+            )
+        return check_valve
 
 
 @kernel

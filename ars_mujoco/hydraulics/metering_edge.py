@@ -6,6 +6,8 @@ would mean 76 L/min at 0.3 mm and 12.5 bar.
 
 import math
 
+from pydantic import ValidationInfo, field_validator
+
 from ars_mujoco.hydraulics.orifice import root_slope, rounded_root
 from ars_mujoco.kernel import kernel
 from ars_mujoco.parameters import Parameters, Quantity
@@ -20,6 +22,14 @@ class MeteringEdge(Parameters):
     supply_pressure: Quantity("Pa", gt=0)  # p_S
     return_pressure: Quantity("Pa", gt=0)  # p_R, the tank's too
     leakage: Quantity("m^3/s/Pa", ge=0)  # of each closed edge: supply to chamber, and chamber to return
+
+    @field_validator("return_pressure")
+    @classmethod
+    def _below_the_supply(cls, return_pressure: float, info: ValidationInfo) -> float:
+        supply = info.data.get("supply_pressure", math.inf)
+        if return_pressure >= supply:
+            raise ValueError(f"must be less than supply_pressure, which is {1e-5 * supply:.4g} bar")
+        return return_pressure
 
 
 @kernel

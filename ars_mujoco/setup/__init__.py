@@ -33,7 +33,7 @@ def prepare(cycle: Cycle, actuator: Actuator, controller: Controller, vehicle: B
     if isinstance(actuator, PumpControlled):
         if isinstance(actuator.drive, Engine) and cycle.rig != "sedan":
             raise InputError(
-                f"drive.kind: 'engine' turns with the road speed, which the rig {cycle.rig} has not; "
+                f"actuator.drive.kind: 'engine' turns with the road speed, which the rig {cycle.rig} has not; "
                 "allowed: constant, table, electric"
             )
         fill_drive(start.parameters.stabilizers.drive, actuator.drive)
