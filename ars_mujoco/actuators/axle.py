@@ -16,6 +16,7 @@ from ars_mujoco.hydraulics.detailed_circuit import (
     advance_detailed,
     control_state,
     detailed_rates,
+    drawn_by_control,
 )
 from ars_mujoco.hydraulics.full_circuit import (
     BYPASS,
@@ -34,7 +35,6 @@ from ars_mujoco.hydraulics.full_circuit import (
     stored_energies,
 )
 from ars_mujoco.hydraulics.pump import extrapolation
-from ars_mujoco.hydraulics.pump_control import control_power
 from ars_mujoco.hydraulics.reduced_circuit import (
     CircuitEnergy,
     CircuitState,
@@ -234,7 +234,7 @@ def _report_detailed(axle, now, out, twist, work):
     out.motor.output_power, out.motor.friction_power = power[MOTOR], power[FRICTION]
     out.motor.leakage_power, out.pump.leakage_power = power[MOTOR_LEAKAGE], power[PUMP_LEAKAGE]
     out.pump.shaft_power, out.pump.loss_power, out.relief.power = power[SHAFT], power[TORQUE_LOSS], power[RELIEF]
-    out.charge.power = power[CHARGE] + control_power(circuit, detail, control_state(now))
+    out.charge.power = power[CHARGE] + drawn_by_control(axle, control_state(now))
     out.pump.extrapolation = extrapolation(circuit.pump, now.circuit.stroke, x[A] - x[B])
     out.pump.control_pressure = now.detail.p_a - now.detail.p_b
     if detail.plant != FULL_PLANT:

@@ -105,6 +105,12 @@ def control_state(now):
 
 
 @kernel
+def drawn_by_control(axle, state) -> float:
+    """Power (W) drawn from the control supply, besides CHARGE; the reduced plant's constant has it already."""
+    return control_power(axle.circuit, axle.detail, state) if axle.detail.plant == FULL_PLANT else 0.0
+
+
+@kernel
 def detailed_rates(axle, x, dx, power, stroke, twist, valves) -> None:
     """Derivatives and powers of the plant, see `full_circuit.full_rates`; the reduced one's pressure is state A."""
     if axle.detail.plant == FULL_PLANT:
@@ -157,7 +163,7 @@ def advance_detailed(axle, now, later, demand, valves, step: float, work) -> flo
         shaft, motor = sums[SHAFT] - shaft, sums[MOTOR] - motor
         recovered += max(-shaft, 0.0)
         throughput += abs(shaft) + abs(motor)
-        supply = 0.5 * (control_power(circuit, detail, state) + control_power(circuit, detail, end))
+        supply = 0.5 * (drawn_by_control(axle, state) + drawn_by_control(axle, end))
         sums[CHARGE], sums[CHARGE_LOSS] = sums[CHARGE] + supply, sums[CHARGE_LOSS] + supply
         state = end
     _write(axle, now, later, state, x, sums, recovered, throughput, h)

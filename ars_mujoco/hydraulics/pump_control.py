@@ -175,8 +175,10 @@ def _implicit_steps(circuit, detail, state, command, pressure, h):
         for i in range(parts):
             asked, load = _piece(command, h, i * part, (i + 1) * part), _piece(pressure, h, i * part, (i + 1) * part)
             end, error = _implicit_step(circuit, detail, end, asked, load, part * h)
-            right = right and _is_right(circuit, detail, end, error)
-        if right or parts >= MOST_PARTS:
+            right = parts == MOST_PARTS or _is_right(circuit, detail, end, error)
+            if not right:
+                break
+        if right:
             return end
         parts *= 2
 
