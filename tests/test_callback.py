@@ -25,6 +25,7 @@ CASES = [
     (BENCH, ()),
     (S_CURVE, ("actuator.drive.kind=engine",)),
     (BENCH, ("actuator.drive.kind=electric",)),
+    (ROLL_PLANE, ("actuator=pump_controlled_full", "actuator.pump_control=full", "actuator.rear.pipe.lumps=4")),
 ]
 INTEGRATORS = ("mjINT_EULER", "mjINT_IMPLICIT", "mjINT_IMPLICITFAST")
 

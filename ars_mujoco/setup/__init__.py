@@ -7,7 +7,7 @@ from ars_mujoco.actuators.actuator import Actuator, PumpControlled
 from ars_mujoco.actuators.drive import fill_drive
 from ars_mujoco.control.control_unit import check_timing
 from ars_mujoco.control.controller import Controller
-from ars_mujoco.cycle import Cycle
+from ars_mujoco.cycle import Cycle, Valves
 from ars_mujoco.errors import InputError
 from ars_mujoco.hydraulics.engine import Engine
 from ars_mujoco.law import law
@@ -35,6 +35,10 @@ def prepare(cycle: Cycle, actuator: Actuator, controller: Controller, vehicle: B
             raise InputError(
                 f"actuator.drive.kind: 'engine' turns with the road speed, which the rig {cycle.rig} has not; "
                 "allowed: constant, table, electric"
+            )
+        if cycle.valves != Valves() and actuator.circuit != "full":
+            raise InputError(
+                f"valves: the circuit '{actuator.circuit}' has none to command; allowed with actuator.circuit: full"
             )
         fill_drive(start.parameters.stabilizers.drive, actuator.drive)
     if controller.pressure_feedback:

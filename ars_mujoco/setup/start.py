@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 
 from ars_mujoco.actuators.actuator import Actuator, fill_axle, start_axle
-from ars_mujoco.cycle import Cycle, Valves
+from ars_mujoco.cycle import Cycle
 from ars_mujoco.errors import InputError
 from ars_mujoco.law import Law
 from ars_mujoco.simulation import Simulation
@@ -44,10 +44,6 @@ class Start:
         bypassed = bool(np.any(getattr(self.cycle.valves, f"{axle}_bypass").signal().values))
         fill_axle(stabilizers[axle], actuator, axle, stiffness, passive_stiffness, self.step, bypassed)
         start_axle(stabilizers[axle], self.world[0].now.stabilizers[axle])
-        if self.cycle.valves != Valves() and getattr(actuator, "circuit", "full") != "full":
-            raise InputError(
-                f"valves: the circuit '{actuator.circuit}' has none to command; allowed with circuit: full"
-            )
         for valve in ("bypass", "fail_safe"):
             stabilizers[f"{axle}_valves"][valve] = getattr(self.cycle.valves, f"{axle}_{valve}").signal()
 
