@@ -62,8 +62,8 @@ class FullCircuit(Circuit):
         opening = check_valve.opening_pressure
         if edge and charge and charge.relief_pressure <= edge.return_pressure + opening:
             raise ValueError(
-                f"an opening_pressure of {1e-5 * opening:.4g} bar leaves the lines without a charge; allowed: less than "
-                f"charge_pump.relief_pressure ({1e-5 * charge.relief_pressure:.4g} bar) less "
+                f"an opening_pressure of {1e-5 * opening:.4g} bar leaves the lines without a charge; allowed: less "
+                f"than charge_pump.relief_pressure ({1e-5 * charge.relief_pressure:.4g} bar) less "
                 f"metering_edge.return_pressure ({1e-5 * edge.return_pressure:.4g} bar)"
             )
         return check_valve
@@ -129,6 +129,8 @@ def rest(circuit, detail, x: np.ndarray) -> None:
     through = check.conductance * leak / (check.conductance + leak)
     relief, start = charge.relief_conductance, charge.relief_pressure
     gallery = (supplied + relief * start + 2.0 * through * (check.opening_pressure + tank)) / (relief + 2.0 * through)
+    if gallery < start:  # the leakage takes all of it, and the charge relief stays shut
+        gallery = supplied / (2.0 * through) + check.opening_pressure + tank
     node = gallery - check.opening_pressure - through / check.conductance * (gallery - check.opening_pressure - tank)
     x[:] = 0.0
     lumps = int(detail.pipe.lumps)

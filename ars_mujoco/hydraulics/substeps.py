@@ -43,7 +43,8 @@ def substeps(circuit, bar_stiffness: float, step: float) -> int:
 def detailed_substeps(axle, step: float, bypassed: bool) -> int:
     """The same for the plant of a detailed circuit, an `axle.Axle` record; its pump control takes implicit steps.
 
-    Looked at also with open check valves, a shut fail-safe valve and, where it will be `bypassed`, an open bypass valve.
+    Looked at also with open check valves, with a shut fail-safe valve and, where it will be `bypassed`, with an open
+    bypass valve.
     """
     states = np.zeros((6, STATES))
     for state in states:
