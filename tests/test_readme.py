@@ -76,3 +76,15 @@ def test_the_scripts_of_the_readme_exist_and_run_what_it_says():
 def test_the_picture_of_the_readme_is_there():
     (picture,) = re.findall(r"!\[.*?\]\((.*?)\)", README)
     assert (ROOT / picture).is_file()
+
+
+def test_the_compensators_of_the_readme_are_accepted(tmp_path):
+    from ars_mujoco.inputs import read_inputs
+    from ars_mujoco.library import shipped
+
+    (block,) = [block for language, block in BLOCKS if language == "yaml"]
+    mine = tmp_path / "mine.yaml"
+    mine.write_text(shipped("controller")["cascade"].read_text() + block)
+    controller = read_inputs("s_curve_120kmh", controller=str(mine)).controller.value
+    assert controller.pressure_feedback.gain == pytest.approx(0.072e-5)
+    assert controller.compensator.frequency == pytest.approx(834)
