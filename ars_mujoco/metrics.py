@@ -14,6 +14,7 @@ from ars_mujoco.recording.recording import Recording
 
 G = 9.80665  # m/s^2
 BAR = 1e5  # Pa
+RPM = np.pi / 30.0  # rad/s
 
 LEAST_REFERENCE_ROLL = 0.3  # deg; a reference that rolls less gives no factor
 ROLL_RESOLUTION = 0.05  # deg; a run that rolls less has a factor of "at least"
@@ -327,10 +328,13 @@ def real_time_factor(run: Run) -> float:
 def _farthest(run: Run, axle: str, far: np.ndarray) -> str:
     """When the pump of an axle first leaves the range of its losses, and where it is farthest outside."""
     time, i = run.recording.time, int(np.argmax(far))
-    stroke, pressure = (abs(run.recording[f"{axle}.{name}"][i]) for name in ("pump.stroke", "motor.pressure"))
+    stroke, speed, pressure = (
+        abs(run.recording[f"{axle}.{name}"][i]) for name in ("pump.stroke", "pump.speed", "motor.pressure")
+    )
     return (
         f"the losses of the {axle} pump are extrapolated from {time[far > 0.0][0]:.3f} s on, at most by "
-        f"{100 * far[i]:.2g} % at {time[i]:.3f} s (stroke {100 * stroke:.1f} %, {pressure / BAR:.1f} bar)"
+        f"{100 * far[i]:.2g} % at {time[i]:.3f} s (stroke {100 * stroke:.1f} %, {speed / RPM:.0f} rpm, "
+        f"{pressure / BAR:.1f} bar)"
     )
 
 

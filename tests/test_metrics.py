@@ -253,7 +253,7 @@ def test_the_real_time_factor_is_simulated_over_wall_time():
 def test_extrapolated_losses_are_told_with_time_and_place():
     time = np.linspace(0.0, 1.0, 1001)
     far = np.clip(0.1 - np.abs(time - 0.3005), 0.0, None)
-    signals = {"pump__stroke": -0.5, "motor__pressure": -330e5, "energy__shaft": 0.0}
+    signals = {"pump__stroke": -0.5, "pump__speed": 100 * np.pi, "motor__pressure": -330e5, "energy__shaft": 0.0}
     run = recording(
         time, **{f"front__{name}": value for name, value in signals.items()}, front__pump__extrapolation=far
     )
@@ -261,7 +261,7 @@ def test_extrapolated_losses_are_told_with_time_and_place():
     assert told.value == pytest.approx(0.2)
     assert told.note == (
         "the losses of the front pump are extrapolated from 0.201 s on, at most by 10 % at 0.300 s "
-        "(stroke 50.0 %, 330.0 bar)"
+        "(stroke 50.0 %, 3000 rpm, 330.0 bar)"
     )
     inside = recording(time, front__energy__shaft=0.0, front__pump__extrapolation=0.0)
     assert measure(Run(inside, (0.0, 1.0)))["loss_extrapolation"].value == 0.0

@@ -5,9 +5,10 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from ars_mujoco.actuators.axle import DETAILED, NO_BAR, PUMP_CONTROLLED, TORSION_BAR
-from ars_mujoco.actuators.drive import Constant, Drive
+from ars_mujoco.actuators.drive import Constant, Drive, first_speed
 from ars_mujoco.hydraulics.detailed_circuit import FULL_PLANT, REDUCED_PLANT, start_detailed
 from ars_mujoco.hydraulics.full_circuit import FullCircuit
+from ars_mujoco.hydraulics.metering_edge import largest_stroke_rate
 from ars_mujoco.hydraulics.oil import fluid
 from ars_mujoco.hydraulics.pump_control import FULL, REDUCED, THIRD_ORDER
 from ars_mujoco.hydraulics.reduced_circuit import Circuit, ReducedCircuit
@@ -16,6 +17,7 @@ from ars_mujoco.hydraulics.temperature import at_temperature
 from ars_mujoco.parameters import Parameters, fill
 
 AXLES = ("front", "rear")
+STROKE_RATE_TOLERANCE = 0.2  # of the swash plate's stated speed
 
 
 class NoBar(Parameters):
@@ -55,7 +57,21 @@ class PumpControlled(Parameters):
         missing = [f"{axle}.{key}" for axle in AXLES for key in needed if getattr(getattr(self, axle), key) is None]
         if missing:
             raise ValueError(f"pump_control '{self.pump_control}' needs {', '.join(missing)}")
+        if needed:
+            for axle in AXLES:
+                _check_stroke_rate(axle, getattr(self, axle))
         return self
+
+
+def _check_stroke_rate(axle: str, circuit: Circuit) -> None:
+    """Refuse a swash plate whose stated speed, from which its loop takes its gain, is not that of its cylinder."""
+    stated = circuit.swash_plate.max_rate
+    own = largest_stroke_rate(circuit.metering_edge, circuit.control_cylinder)
+    if abs(own - stated) > STROKE_RATE_TOLERANCE * stated:
+        raise ValueError(
+            f"{axle}.swash_plate.max_rate is {stated:.4g} 1/s, but its metering edges move its cylinder at {own:.4g} "
+            f"1/s; allowed: within {100 * STROKE_RATE_TOLERANCE:g} %"
+        )
 
 
 class FullPumpControlled(PumpControlled):
@@ -102,6 +118,8 @@ def fill_axle(
         case PumpControlled():
             record.stiffness = stiffness
             _fill_circuit(record, actuator, at_temperature(getattr(actuator, axle)))
+            pump = record.circuit.pump
+            pump.speed = first_speed(actuator.drive, pump.speed)
             if record.kind == DETAILED:
                 record.substeps = detailed_substeps(record, step, bypassed)
             else:

@@ -34,7 +34,7 @@ from ars_mujoco.hydraulics.full_circuit import (
     B,
     stored_energies,
 )
-from ars_mujoco.hydraulics.pump import extrapolation
+from ars_mujoco.hydraulics.pump import extrapolation, ideal_flow
 from ars_mujoco.hydraulics.reduced_circuit import (
     CircuitEnergy,
     CircuitState,
@@ -203,14 +203,15 @@ def _report_circuit(circuit, now, out):
     out.bar.angle = state.angle
     out.motor.pressure, out.motor.rate = state.pressure, state.rate
     out.pump.speed, out.pump.stroke = circuit.pump.speed, state.stroke
-    out.pump.flow = circuit.pump.displacement * circuit.pump.speed * min(max(state.stroke, -1.0), 1.0)
+    out.pump.flow = ideal_flow(circuit.pump, state.stroke)
     out.energy.shaft, out.energy.recovered = energy.shaft, energy.recovered
     out.energy.pump_torque_loss, out.energy.pump_leakage = energy.pump_torque_loss, energy.pump_leakage
     out.energy.motor_leakage, out.energy.relief = energy.motor_leakage, energy.relief
     out.energy.friction, out.energy.capacitance = energy.friction, energy.capacitance
     out.energy.line, out.energy.check, out.energy.bypass = energy.line, energy.check, energy.bypass
     out.energy.tank_leakage = energy.tank_leakage
-    out.energy.charge, out.energy.charge_loss = energy.charge, energy.charge_loss
+    out.energy.charge, out.energy.charge_pump = energy.charge, energy.charge_pump
+    out.energy.charge_loss = energy.charge_loss
     out.energy.motor, out.energy.throughput = energy.motor, energy.throughput
 
 

@@ -4,11 +4,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from ars_mujoco.cycle import KnotsOf
 from ars_mujoco.hydraulics import drive as kinds
 from ars_mujoco.hydraulics.electric_motor import ElectricMotor
 from ars_mujoco.hydraulics.engine import Engine
 from ars_mujoco.parameters import Parameters, fill
+from ars_mujoco.signal import KnotsOf
 
 
 class Constant(Parameters):
@@ -25,6 +25,16 @@ class Table(Parameters):
 
 
 Drive = Annotated[Constant | Table | Engine | ElectricMotor, Field(discriminator="kind")]
+
+
+def first_speed(drive: Drive, stated: float) -> float:
+    """Speed (rad/s) of a pump at the start, of which its file states `stated`; an engine is charged at that too."""
+    match drive:
+        case Table():
+            return float(drive.speed.signal().values[0])
+        case ElectricMotor():
+            return drive.no_load_speed
+    return stated
 
 
 def fill_drive(record, drive: Drive) -> None:

@@ -44,12 +44,12 @@ def cylinder_friction(cylinder, rate: float):
 
 @kernel
 def stop_force(cylinder, travel: float, rate: float):
-    """Force (N) of the mechanical stops, and its slopes by travel and by speed."""
-    beyond = abs(travel) - cylinder.travel
-    if beyond <= 0.0:
+    """Force (N) of the mechanical stops, which push but do not pull, and its slopes by travel and by speed."""
+    beyond, outward = abs(travel) - cylinder.travel, math.copysign(1.0, travel)
+    force = cylinder.stop_stiffness * beyond + cylinder.stop_damping * outward * rate
+    if beyond <= 0.0 or force <= 0.0:
         return 0.0, 0.0, 0.0
-    force = math.copysign(cylinder.stop_stiffness * beyond, travel) + cylinder.stop_damping * rate
-    return force, cylinder.stop_stiffness, cylinder.stop_damping
+    return outward * force, cylinder.stop_stiffness, cylinder.stop_damping
 
 
 @kernel

@@ -135,7 +135,7 @@ def advance_detailed(axle, now, later, demand, valves, step: float, work) -> flo
     (c0, c1, c2), gain, bias, twist = demand
     x, k, powers, sums, h = work.state, work.slopes, work.powers, work.sums, step / count
     x[:], sums[:] = now.detail.plant, 0.0
-    recovered = throughput = 0.0
+    recovered = throughput = supplied = 0.0
     state = control_state(now)
     for i in range(count):
         t = i * h
@@ -163,10 +163,9 @@ def advance_detailed(axle, now, later, demand, valves, step: float, work) -> flo
         shaft, motor = sums[SHAFT] - shaft, sums[MOTOR] - motor
         recovered += max(-shaft, 0.0)
         throughput += abs(shaft) + abs(motor)
-        supply = 0.5 * (drawn_by_control(axle, state) + drawn_by_control(axle, end))
-        sums[CHARGE], sums[CHARGE_LOSS] = sums[CHARGE] + supply, sums[CHARGE_LOSS] + supply
+        supplied += 0.5 * (drawn_by_control(axle, state) + drawn_by_control(axle, end))
         state = end
-    _write(axle, now, later, state, x, sums, recovered, throughput, h)
+    _write(axle, now, later, state, x, sums, (recovered, throughput, supplied), h)
     return sums[BAR_TORQUE] / count
 
 
@@ -177,14 +176,14 @@ def _along(trial, x, slope, h):
 
 
 @kernel
-def _write(axle, now, later, state, x, sums, recovered, throughput, h):
+def _write(axle, now, later, state, x, sums, others, h):
     # the new states and energies; what a controller senses stands where the reduced circuit has it
     circuit, detail = later.circuit, later.detail
     circuit.spool, circuit.spool_rate, detail.p_a, detail.p_b, circuit.stroke, detail.piston_rate = state
     detail.plant[:] = x
     end = int(axle.detail.pipe.lumps)
     circuit.pressure, circuit.angle, circuit.rate = x[A + end] - x[B + end], x[ANGLE], x[RATE]
-    before, after = now.energy, later.energy
+    before, after, (recovered, throughput, supplied) = now.energy, later.energy, others
     after.shaft, after.recovered = before.shaft + h * sums[SHAFT], before.recovered + h * recovered
     after.pump_torque_loss = before.pump_torque_loss + h * sums[TORQUE_LOSS]
     after.pump_leakage = before.pump_leakage + h * sums[PUMP_LEAKAGE]
@@ -193,6 +192,8 @@ def _write(axle, now, later, state, x, sums, recovered, throughput, h):
     after.capacitance, after.line = before.capacitance + h * sums[CAPACITANCE], before.line + h * sums[LINE]
     after.check, after.bypass = before.check + h * sums[CHECK], before.bypass + h * sums[BYPASS_LOSS]
     after.tank_leakage = before.tank_leakage + h * sums[TANK_LEAKAGE]
-    after.charge = before.charge + h * sums[CHARGE]
-    after.charge_loss = before.charge_loss + h * sums[CHARGE_LOSS]
+    after.charge = before.charge + h * (sums[CHARGE] + supplied)
+    after.charge_loss = before.charge_loss + h * (sums[CHARGE_LOSS] + supplied)
+    if axle.detail.plant == FULL_PLANT:
+        after.charge_pump = before.charge_pump + h * sums[CHARGE]
     after.motor, after.throughput = before.motor + h * sums[MOTOR], before.throughput + h * throughput

@@ -38,7 +38,7 @@ class DriveOutput(Parameters):
 
     speed: Signal("rad/s", "speed of engine or motor; without them that of the front pump")
     gear: Signal("1", "gear of the engine, 1 the first")
-    power: Signal("W", "power for both pumps, of an electric motor what it takes from its supply; mean over the step")
+    power: Signal("W", "power for all pumps on the shaft; of an electric motor what it takes from its supply")
 
 
 @kernel
@@ -65,7 +65,7 @@ def set_speed(drive, now, later, out, pumps, time: float, road_speed: float) -> 
 
 @kernel
 def take_work(drive, now, later, out, work: float, step: float) -> None:
-    """Let the drive do the `work` (J) that both pumps took over the last `step` (s)."""
+    """Let the drive do the `work` (J) that the pumps on its shaft took over the last `step` (s)."""
     out.power = work / step
     if drive.kind == ELECTRIC:
         motor, speed = drive.motor, drive.motor.no_load_speed - now.slip

@@ -42,6 +42,16 @@ class Engine(Parameters):
             raise ValueError(f"max_speed must be above idle_speed, which is {idle_speed:.4g} rad/s")
         return max_speed
 
+    @field_validator("downshift_speed", "upshift_speed")
+    @classmethod
+    def _is_reached(cls, speed, info: ValidationInfo):
+        idle, most = info.data.get("idle_speed", 0.0), info.data.get("max_speed", speed)
+        if not idle <= speed <= most:
+            raise ValueError(
+                f"{info.field_name} must lie between idle_speed and max_speed, {idle:.4g} and {most:.4g} rad/s"
+            )
+        return speed
+
     @field_validator("ratios")
     @classmethod
     def _shift_without_hunting(cls, ratios, info: ValidationInfo):

@@ -81,7 +81,7 @@ def mean_supply_power(edge, spool: float) -> float:
     return supply_power(edge, spool, middle, middle)
 
 
-def largest_stroke_rate(edge: MeteringEdge, area: float, travel: float) -> float:
-    """Full strokes a second (1/s) at a fully open valve without load, for a cylinder of `area` m^2 and `travel` m."""
+def largest_stroke_rate(edge: MeteringEdge, cylinder) -> float:
+    """Full strokes a second (1/s) of an unloaded ControlCylinder at a fully open valve."""
     drop = 0.5 * (edge.supply_pressure - edge.return_pressure)
-    return edge.constant * edge.stroke * math.sqrt(drop) / (area * travel)
+    return edge.constant * edge.stroke * math.sqrt(drop) / (cylinder.area * cylinder.travel)

@@ -43,13 +43,17 @@ class Fluid(Parameters):
 
 def fluid(oil: Oil) -> Fluid:
     """`oil` at its temperature; density and bulk modulus fall linearly with it."""
-    warming = oil.temperature - REFERENCE_TEMPERATURE
     return Fluid.model_construct(
-        bulk_modulus=oil.bulk_modulus * (1.0 - SOFTENING * warming),
+        bulk_modulus=oil.bulk_modulus * stiffness_ratio(oil),
         air=oil.air,
         density=oil.density * (1.0 - EXPANSION * (oil.temperature - DENSITY_TEMPERATURE)),
         viscosity=_viscosity(oil, oil.temperature),
     )
+
+
+def stiffness_ratio(oil: Oil) -> float:
+    """Bulk modulus at the oil's temperature over that at 50 degC."""
+    return 1.0 - SOFTENING * (oil.temperature - REFERENCE_TEMPERATURE)
 
 
 def viscosity_ratio(oil: Oil) -> float:

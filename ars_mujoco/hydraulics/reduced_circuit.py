@@ -78,7 +78,8 @@ class CircuitEnergy(Parameters):
     bypass: Signal("J", "lost over the bypass valve")
     tank_leakage: Signal("J", "lost to leakage to the tank")
     charge: Signal("J", "drawn by charge and control supply")
-    charge_loss: Signal("J", "of that, what never reaches the circuit")
+    charge_pump: Signal("J", "of that, work of the shaft on the charge pump (full circuit)")
+    charge_loss: Signal("J", "of charge, what never reaches the circuit")
     motor: Signal("J", "work of the motor on the bar")
     throughput: Signal("J", "integral of |shaft| + |motor| power")
 

@@ -1,7 +1,7 @@
 """Temperature: what a warmer, thinner oil changes in a circuit whose values are stated at 50 degC."""
 
-from ars_mujoco.hydraulics.oil import viscosity_ratio
-from ars_mujoco.hydraulics.reduced_circuit import Circuit
+from ars_mujoco.hydraulics.oil import stiffness_ratio, viscosity_ratio
+from ars_mujoco.hydraulics.reduced_circuit import Circuit, ReducedCircuit
 
 # in proportion to the viscosity, and in proportion to its inverse (laminar gaps)
 THICKER = {"motor": ("viscous_friction",), "control_cylinder": ("viscous_friction",)}
@@ -14,9 +14,11 @@ THINNER = {
 
 
 def at_temperature(circuit: Circuit) -> Circuit:
-    """`circuit` with its viscous friction and laminar leakages at its oil's temperature; as it is where none is stated.
+    """`circuit` with viscous friction, laminar leakages and stated capacitance at its oil's temperature; as it is where
+    none is stated.
 
-    Lines take the viscosity itself. A pump's measured loss polynomials hold at the temperature they were measured at.
+    Lines take the viscosity itself, and the full circuit's volumes the bulk modulus. A pump's measured loss polynomials
+    hold at the temperature they were measured at.
     """
     if circuit.oil is None:
         return circuit
@@ -27,6 +29,9 @@ def at_temperature(circuit: Circuit) -> Circuit:
             part = changed.get(block, getattr(circuit, block))
             if part is not None:
                 changed[block] = part.model_copy(update={key: factor * getattr(part, key) for key in keys})
-    if "tank_leakage" in type(circuit).model_fields:
+    if isinstance(circuit, ReducedCircuit):
+        softer = circuit.line.capacitance / stiffness_ratio(circuit.oil)
+        changed["line"] = circuit.line.model_copy(update={"capacitance": softer})
+    else:
         changed["tank_leakage"] = circuit.tank_leakage / ratio
     return circuit.model_copy(update=changed)

@@ -90,9 +90,15 @@ def stabilize_both(
         _demand(front_command, front_gain, front_bias, front_valves),
         _demand(rear_command, rear_gain, rear_bias, rear_valves), (front_valves, rear_valves), step, work,
     )  # fmt: skip
-    done = later.front.energy.shaft - now.front.energy.shaft + later.rear.energy.shaft - now.rear.energy.shaft
+    done = _shaft_work(later.front) - _shaft_work(now.front) + _shaft_work(later.rear) - _shaft_work(now.rear)
     take_work(p.drive, now.drive, later.drive, drive_out, done, step)
     return torques
+
+
+@kernel
+def _shaft_work(axle):
+    # of the pump and of a full circuit's charge pump, on the same shaft
+    return axle.energy.shaft + axle.energy.charge_pump
 
 
 @kernel

@@ -53,6 +53,7 @@ def test_values_carry_units():
         (["kind=engine", "ratios=[2, -1]"], r"drive.ratios.1: '-1': must be greater than 0"),
         (["kind=engine", "idle_speed=7000 rpm"], r"drive: max_speed must be above idle_speed"),
         (["kind=engine", "max_speed=700 rpm"], r"drive.max_speed: '700 rpm': max_speed must be above idle_speed"),
+        (["kind=engine", "upshift_speed=7000 rpm"], r"upshift_speed must lie between idle_speed and max_speed"),
         (["kind=engine", "downshift_speed=1700 rpm"], r"upshift_speed must be more than 1.68 times downshift_speed"),
         (["kind=engine", "rolling_radius=0 m"], r"drive.rolling_radius: '0 m': must be greater than 0 m"),
         (["kind=electric", "efficiency=110 %"], r"drive.efficiency: '110 %': must be at most 100 %"),

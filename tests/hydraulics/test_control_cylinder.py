@@ -56,6 +56,7 @@ def test_the_stop_is_a_damped_spring_beyond_the_travel_alone():
     force, by_travel, by_rate = stop_force(CYLINDER, -5.001e-3, -0.1)
     assert force == pytest.approx(-(5e7 * 1e-6 + 1500 * 0.1))
     assert (by_travel, by_rate) == (5e7, 1500.0)
+    assert stop_force(CYLINDER, -5.001e-3, 0.1) == (0.0, 0.0, 0.0)  # on its way back faster than the stop follows
 
 
 def test_the_piston_is_pushed_by_oil_spring_and_swash_plate():

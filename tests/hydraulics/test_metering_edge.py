@@ -1,6 +1,7 @@
 """Metering edges against eqs. 9 to 11, the powers they take, and their slopes."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -107,5 +108,5 @@ def test_without_chamber_pressures_the_supply_is_taken_at_no_load(spool):
 def test_the_shipped_valve_turns_the_swash_plate_nearly_as_fast_as_the_integrator_of_third_order():
     """B y_max sqrt(12.5 bar) / (A x_max): 248 1/s against the 250 1/s of eq. 20."""
     stated = EDGE.constant * EDGE.stroke * math.sqrt(12.5 * BAR) / (1.54e-4 * 5e-3)
-    assert largest_stroke_rate(EDGE, 1.54e-4, 5e-3) == pytest.approx(stated)
+    assert largest_stroke_rate(EDGE, SimpleNamespace(area=1.54e-4, travel=5e-3)) == pytest.approx(stated)
     assert stated == pytest.approx(248.3, abs=0.1)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from ars_mujoco.actuators.actuator import Actuator
 from ars_mujoco.files import read
-from ars_mujoco.hydraulics.oil import viscosity_ratio
+from ars_mujoco.hydraulics.oil import fluid, viscosity_ratio
 from ars_mujoco.hydraulics.temperature import THICKER, THINNER, at_temperature
 
 FULL = read(Actuator, "pump_controlled_full", "actuator").value.front
@@ -39,6 +39,13 @@ def test_viscous_friction_goes_with_the_viscosity_and_leakage_with_its_inverse(c
                 before, after = getattr(getattr(FULL, block), key), getattr(getattr(changed, block), key)
                 assert after == pytest.approx(factor * before, rel=1e-12)
     assert changed.tank_leakage == pytest.approx(1e-14 / ratio)
+
+
+def test_a_stated_capacitance_grows_as_the_oil_softens():
+    for celsius in (0.0, 100.0):
+        stated = warmed(VERIFICATION, celsius)
+        softer = fluid(VERIFICATION.oil).bulk_modulus / fluid(stated.oil).bulk_modulus
+        assert at_temperature(stated).line.capacitance == pytest.approx(softer * 6e-14)
 
 
 def test_nothing_else_changes():

@@ -209,7 +209,8 @@ def _valve(p: DetailedPlant, y: float, y_rate: float, X_c: float, X: float) -> l
 def _piston(p: DetailedPlant, x: float, v: float, dp_c: float, dp: float) -> list[float]:
     friction = (p.f_C + p.f_s * exp(-p.tau_s * abs(v))) * tanh(v / p.v_s) + p.f_v * v
     beyond = x - _sat(x, p.x_max)
-    stop = p.k_st * beyond + p.d_st * v if beyond else 0.0
+    pushing = p.k_st * abs(beyond) + p.d_st * copysign(1.0, beyond) * v  # a stop pushes, it does not pull
+    stop = copysign(max(pushing, 0.0), beyond) if beyond else 0.0
     swash_plate = p.F_0 * dp / p.dp_0
     return [v, (p.A * dp_c - friction - swash_plate - p.c_sp * x - stop) / p.m]
 

@@ -161,3 +161,12 @@ def test_the_engine_follows_the_road_speed_through_its_gears():
     for axle in ("front", "rear"):
         np.testing.assert_array_equal(recording[f"{axle}.pump.speed"], speed)
     assert recording["body.lateral_acceleration"].max() / G > 0.8
+
+
+def test_a_full_circuits_charge_pumps_load_the_electric_motor_too():
+    settings = ("actuator=pump_controlled_full", "actuator.drive.kind=electric")
+    recording = drive("bench_s_curve", *settings)
+    energy = {name: recording[f"front.energy.{name}"][-1] for name in ("shaft", "charge_pump", "charge")}
+    taken = np.sum(recording["drive.power"][:-1]) * 1e-3
+    assert 0.9 * energy["charge"] < energy["charge_pump"] < energy["charge"]
+    assert taken == pytest.approx((energy["shaft"] + energy["charge_pump"]) / 0.85, rel=2e-3)  # its efficiency
