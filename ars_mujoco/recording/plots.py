@@ -42,6 +42,11 @@ def _axle_tab(name: str, prefix: str) -> Tab:
     )
 
 
+def _side_pressures(axle: str) -> Plot:
+    sides = ("motor.pressure_a", "motor.pressure_b", "charge.pressure")
+    return Plot(f"{axle} pressures", tuple(f"{axle}.{signal}" for signal in sides))
+
+
 def _energy_plots(expand) -> tuple[Plot, ...]:
     return (
         Plot("power", expand("pump.shaft_power", "motor.output_power")),
@@ -62,6 +67,14 @@ TABS = (
     _axle_tab("front axle", "front."),
     _axle_tab("rear axle", "rear."),
     _axle_tab("bar", ""),
+    Tab(
+        "circuit",
+        (
+            _side_pressures("front"),
+            _side_pressures("rear"),
+            Plot("valve openings", _axles("valve.bypass", "valve.fail_safe")),
+        ),
+    ),
     Tab("energy", _energy_plots(_axles)),
     Tab("pump energy", _energy_plots(lambda *signals: signals)),
     Tab(

@@ -9,6 +9,7 @@ from ars_mujoco.recording.rerun_run import RerunRun
 from ars_mujoco.recording.rerun_signals import plot_range
 from ars_mujoco.recording.rerun_solids import KINDS
 
+NOTHING = (float("inf"), float("-inf"))  # the extremes of a run without samples
 BACKGROUND = (24, 27, 32)
 # behind the car and a little above: the body's roll against the level; and three quarters from the front for small rigs
 CHASE_EYE, CHASE_TARGET = (-5.6, 0.0, 1.7), (0.0, 0.0, 0.85)
@@ -64,8 +65,14 @@ def _view(name: str, origin: str, contents: list[str], eye: tuple, target: tuple
 
 
 def _plot_tabs(runs: list[RerunRun]) -> list[rrb.Vertical]:
+    """The tabs in which some signal is not 0 all the time; a reduced circuit, say, has no valves to show."""
     channels = list(dict.fromkeys(name for run in runs for name in run.signals.channels))
-    return [rrb.Vertical(*(_plot(runs, plot) for plot in tab.plots), name=tab.name) for tab in tabs_of(channels)]
+    tabs = [tab for tab in tabs_of(channels) if any(_moves(runs, plot) for plot in tab.plots)]
+    return [rrb.Vertical(*(_plot(runs, plot) for plot in tab.plots), name=tab.name) for tab in tabs]
+
+
+def _moves(runs: list[RerunRun], plot: Plot) -> bool:
+    return any(run.signals.extremes(plot) not in ((0.0, 0.0), NOTHING) for run in runs)
 
 
 def _plot(runs: list[RerunRun], plot: Plot) -> rrb.TimeSeriesView:
