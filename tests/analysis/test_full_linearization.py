@@ -21,6 +21,7 @@ from ars_mujoco.analysis.linearization import (
 from ars_mujoco.analysis.loop import loop_of
 from ars_mujoco.analysis.margins import margins
 from ars_mujoco.analysis.steady_state import error
+from ars_mujoco.hydraulics.oil import viscosity_ratio
 from ars_mujoco.hydraulics.pump_control import FULL, REDUCED, THIRD_ORDER
 from ars_mujoco.inputs import read_inputs
 
@@ -110,5 +111,8 @@ def test_small_sines_get_the_linear_response_with_both_checks_shut(actuated, sta
 
 
 def test_the_temperature_of_the_oil_reaches_the_linear_loop():
-    cold = loop_of(read_inputs("bench_s_curve", settings=["actuator.front.oil.temperature=0 degC"]))
-    assert cold.circuit.motor.viscous_friction > 5 * LOOP.circuit.motor.viscous_friction
+    inputs = read_inputs("bench_s_curve", settings=["actuator.front.oil.temperature=0 degC"])
+    ratio = viscosity_ratio(inputs.actuator.value.front.oil)
+    assert ratio > 4
+    cold, warm = loop_of(inputs).circuit.motor, LOOP.circuit.motor
+    assert cold.viscous_friction == pytest.approx(ratio * warm.viscous_friction)
