@@ -3,6 +3,7 @@
 `cycles/` and `mjcf/` stand beside the package in a checkout and inside it once installed.
 """
 
+import re
 from glob import escape
 from itertools import takewhile
 from pathlib import Path
@@ -39,7 +40,8 @@ def description(path: Path) -> str:
     if not first.startswith("#"):
         return first.removeprefix("title:").strip()
     comment = takewhile(lambda line: line.startswith("#"), [first, *rest])
-    return " ".join(line.lstrip("# ") for line in comment).split(". ")[0].rstrip(".")
+    text = " ".join(line.lstrip("# ") for line in comment)
+    return re.split(r"\. (?=[A-Z])", text)[0].rstrip(".")
 
 
 def find(kind: str, name_or_path: str | Path, beside: Path | None = None) -> Path:

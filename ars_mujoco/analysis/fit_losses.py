@@ -327,7 +327,11 @@ def _told(numbers: Mapping[str, Any], factor: float, unit: str) -> dict[str, str
 
 def remarks(result: Mapping[str, Any]) -> list[str]:
     """What has to be said about the fits."""
-    return [
+    coefficients = len(_terms(result["orders"]))
+    exact = (
+        f"{coefficients} points for {coefficients} coefficients: the fit goes through each, errors say nothing of it"
+    )
+    return [exact] * (result["points"] == coefficients) + [
         f"the {name.replace('_', ' ')} is negative somewhere in its range; the simulation takes zero there"
         for name in ("flow_loss", "torque_loss")
         if result[name]["least_loss"] < 0.0
@@ -337,7 +341,8 @@ def remarks(result: Mapping[str, Any]) -> list[str]:
 def _block(path: Path, displacement: float, flow: FlowLoss, torque: TorqueLoss) -> str:
     """The keys of a pump in an actuator's file."""
     lines = [
-        f"# Losses fitted to {path.name}: these keys go in the block `pump:` of an actuator's file.",
+        f"# Losses fitted to {path.name}: in the block `pump:` of an actuator's file they replace",
+        "# displacement, leakage, flow_loss and torque_loss.",
         f"displacement: {_written(displacement, 'cm^3/rev', 'm^3/rad')}",
         "leakage: 0 m^3/s/Pa  # the flow loss holds all of it",
     ]

@@ -75,6 +75,14 @@ TABS = (
             Plot("valve openings", _axles("valve.bypass", "valve.fail_safe")),
         ),
     ),
+    Tab(
+        "pump",
+        (
+            Plot("pump stroke", _axles("pump.stroke")),
+            Plot("pump flow", _axles("pump.flow")),
+            Plot("travel of the ends", ("ends.travel",)),
+        ),
+    ),
     Tab("energy", _energy_plots(_axles)),
     Tab("pump energy", _energy_plots(lambda *signals: signals)),
     Tab(

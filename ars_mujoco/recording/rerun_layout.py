@@ -65,10 +65,10 @@ def _view(name: str, origin: str, contents: list[str], eye: tuple, target: tuple
 
 
 def _plot_tabs(runs: list[RerunRun]) -> list[rrb.Vertical]:
-    """The tabs in which some signal is not 0 all the time; a reduced circuit, say, has no valves to show."""
+    """The plots in which some signal is not 0 all the time; a reduced circuit, say, has no valves to show."""
     channels = list(dict.fromkeys(name for run in runs for name in run.signals.channels))
-    tabs = [tab for tab in tabs_of(channels) if any(_moves(runs, plot) for plot in tab.plots)]
-    return [rrb.Vertical(*(_plot(runs, plot) for plot in tab.plots), name=tab.name) for tab in tabs]
+    tabs = {tab.name: [plot for plot in tab.plots if _moves(runs, plot)] for tab in tabs_of(channels)}
+    return [rrb.Vertical(*(_plot(runs, plot) for plot in plots), name=name) for name, plots in tabs.items() if plots]
 
 
 def _moves(runs: list[RerunRun], plot: Plot) -> bool:

@@ -168,3 +168,10 @@ def test_a_displacement_over_the_full_one_is_refused(data, tmp_path):
         fit_losses(data, (1, 1, 1), tmp_path, displacement="1.5 cm^3/rev")
     with pytest.raises(InputError, match="--scale-to '2 cm': wrong unit"):
         fit_losses(data, (1, 1, 1), tmp_path, scale_to="2 cm")
+
+
+def test_a_fit_through_every_point_is_told_to_say_nothing_of_its_errors():
+    fine = {"least_loss": 0.0}
+    result = {"orders": [1, 0, 1], "points": 4, "flow_loss": fine, "torque_loss": fine}
+    assert remarks(result) == ["4 points for 4 coefficients: the fit goes through each, errors say nothing of it"]
+    assert remarks(result | {"points": 5}) == []
