@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from ars_mujoco.analysis.figure import ACCENT, DARK, DASHES, LIGHT, MIDDLE_GREY, label, legend_beside
+from ars_mujoco.analysis.figure import ACCENT, DARK, DASHES, MIDDLE_GREY, label, legend_beside
 from ars_mujoco.analysis.linearization import actuator, plant
 from ars_mujoco.analysis.loop import BOTH_SHUT, LOW_SIDE_HELD, Loop
 from ars_mujoco.analysis.margins import FASTEST, WANTED
@@ -151,10 +151,9 @@ def draw(result: dict[str, Any]) -> Figure:
     label(gain, "Stability boundary", "length of the line (m)", "K_p (1/rad)", legend=False)
     legend_beside(figure, frequency)
     run = result["steps"]
-    steps.plot(run["time"], run["with"], color=LIGHT, lw=0.9, label="with the oil's mass")
-    steps.plot(run["time"], run["without"], color=DARK, lw=1.1, label="without")
-    title = f"Simulated step, K_p {run['gain']['value']:.0f} 1/rad, no dry friction"
-    label(steps, title, "time (s)", "angle (deg)")
+    steps.plot(run["time"], run["with"], color=DARK, lw=0.9, label="with the oil's mass")
+    steps.plot(run["time"], run["without"], color=MIDDLE_GREY, lw=1.4, label="without")
+    label(steps, f"Step without dry friction, K_p {run['gain']['value']:.0f}", "time (s)", "angle (deg)")
     return figure
 
 
