@@ -17,7 +17,7 @@ SHIPPED = replace(
     NOMINAL,
     V_L=3.34 * np.pi * 0.01**2 / 4,
     density=860 * (1 - 7e-4 * 35),
-    viscosity=21.4963e-6,
+    viscosity=14.9420e-6,  # Walther between 19 mm^2/s at 40 and 6 at 100 degC, at 50
     G_c=8.33e-10,
     K_f=20e-3 / 60 / 2e5**0.5,
     q_0=0.05 * 20e-3 / 60,
@@ -27,7 +27,9 @@ DEGREES = pytest.mark.parametrize("degrees", [1, 10])
 
 
 def agrees(circuit, stage, degrees, *settings, **changes):
-    """The run is within 0.5 % (angle) and 1 % (pressure) of the reference, over its peak, at every sample."""
+    """The run is within 0.02 % (angle) and 0.05 % (pressure) of the reference, over its peak, at every sample: what was
+    aimed at is 0.5 and 1 %, but so coarse a bound would pass another oil in the reference.
+    """
     recording = drive(f"bench_step_{degrees}deg", circuit, stage, *settings)
     plant = replace(SHIPPED if circuit == "full" else NOMINAL, **changes)
     reference, time = solve(plant, stage, circuit, step(degrees)), recording.time
@@ -41,12 +43,12 @@ def agrees(circuit, stage, degrees, *settings, **changes):
         )
     )
     print(f"{circuit}, {stage}, {degrees} deg {settings}: phi {phi:.4f} %, dp {dp:.4f} %, X {X:.4f} %")
-    return phi < 0.5 and dp < 1.0 and X < 0.5
+    return phi < 0.02 and dp < 0.05 and X < 0.05
 
 
 @DEGREES
 @pytest.mark.parametrize(("circuit", "stage"), VARIANTS)
-def test_every_stage_and_circuit_is_within_half_a_percent_of_the_reference(circuit, stage, degrees):
+def test_every_stage_and_circuit_is_that_of_the_reference(circuit, stage, degrees):
     assert agrees(circuit, stage, degrees)
 
 
@@ -68,10 +70,10 @@ PRESSURES = {"charge.pressure": "gallery", "motor.pressure_a": "A1", "motor.pres
 
 
 @pytest.mark.parametrize(("channel", "name"), PRESSURES.items())
-def test_every_recorded_pressure_is_within_half_a_percent_of_the_references(channel, name):
+def test_every_recorded_pressure_is_within_a_thousandth_of_the_references(channel, name):
     recording = drive("bench_step_10deg")
     expected = solve(SHIPPED, "full", "full", step(10)).state(recording.time)[name]
-    assert recording[f"front.{channel}"] == pytest.approx(expected, abs=0.005 * expected.max())
+    assert recording[f"front.{channel}"] == pytest.approx(expected, abs=0.001 * expected.max())
 
 
 def test_so_is_the_control_cylinders_but_in_the_substeps_in_which_it_jumps():
