@@ -1,15 +1,9 @@
 """The detailed circuits in the rigs: the sedan drives with them, restores bit for bit, and has its interpreted twin."""
 
-import subprocess
-import sys
-
-import mujoco
 import numpy as np
 import pytest
 import shipped
-from test_callback import TWIN, drive_on
-
-from ars_mujoco.callback import installed
+from test_callback import drive_on, twins_apart
 
 S_CURVE, BENCH, FULL = "s_curve_120kmh", "bench_s_curve", "pump_controlled_full"
 STAGES = ("third_order", "reduced", "full")
@@ -38,19 +32,8 @@ def test_a_run_restored_in_its_middle_ends_identical(stage):
 
 @pytest.mark.parametrize(("stage", "actuator"), [("full", FULL), ("reduced", "pump_controlled")])
 def test_the_interpreted_twin_agrees_to_1e_12(stage, actuator, tmp_path, monkeypatch):
-    bench, steps = simulation(BENCH, stage, actuator), 40
+    bench = simulation(BENCH, stage, actuator)
     data = shipped.driven(bench, 0.7)
-    mujoco.mj_saveModel(bench.model, str(tmp_path / "model.mjb"))
-    np.save(tmp_path / "state.npy", shipped.state_of(bench.model, data))
-    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
-    subprocess.run([sys.executable, "-c", TWIN, str(tmp_path), bench.rig.NAME, str(steps)], check=True)
-    compiled = []
-    with installed(bench.rig, bench.model, data):
-        for _ in range(steps):
-            mujoco.mj_step(bench.model, data)
-            compiled.append(data.userdata.copy())
-    compiled, interpreted = np.array(compiled), np.load(tmp_path / "interpreted.npy")
-    apart = np.abs(interpreted - compiled).max(axis=0) / np.maximum(np.abs(compiled).max(axis=0), 1e-300)
-    print(f"{stage}: {apart.max():.1e} apart, relative to each number's peak")
+    apart = twins_apart(bench, data, 40, tmp_path, monkeypatch)
     assert abs(data.userdata.view(bench.rig.WORLD).view(np.recarray)[0].out.front.motor.rate) > 1e-3
-    assert apart.max() < 1e-12
+    assert apart < 1e-12

@@ -25,6 +25,7 @@ from ars_mujoco.hydraulics.metering_edge import (
     mean_supply_power,
     supply_power,
 )
+from ars_mujoco.hydraulics.reduced_circuit import along
 from ars_mujoco.hydraulics.servo_valve import spool_acceleration
 from ars_mujoco.hydraulics.swash_plate import stroke_rate
 from ars_mujoco.kernel import kernel
@@ -212,15 +213,15 @@ def _implicit_step(circuit, detail, state, command, pressure, h):
     first = start[0]
     f_t = _drift(circuit, start, command, pressure)
     factors = _eliminate(circuit, start, 2.0 / h)
-    k1 = _solve(factors, _sum(first, f_t, 0.5 * h))
-    k2 = _solve(factors, _sum(_sum(first, f_t, 1.5 * h), k1, 4.0 / h))
-    third = _sum(state, k1, 2.0)
+    k1 = _solve(factors, along(first, f_t, 0.5 * h))
+    k2 = _solve(factors, along(along(first, f_t, 1.5 * h), k1, 4.0 / h))
+    third = along(state, k1, 2.0)
     f3 = cylinder_rates(circuit, detail, third, command[1], pressure[1])[0]
-    k3 = _solve(factors, _sum(_sum(f3, k1, 1.0 / h), k2, -1.0 / h))
-    fourth = _sum(third, k3, 1.0)
+    k3 = _solve(factors, along(along(f3, k1, 1.0 / h), k2, -1.0 / h))
+    fourth = along(third, k3, 1.0)
     f4 = cylinder_rates(circuit, detail, fourth, command[1], pressure[1])[0]
-    k4 = _solve(factors, _sum(_sum(_sum(f4, k1, 1.0 / h), k2, -1.0 / h), k3, -8.0 / (3.0 * h)))
-    return _sum(fourth, k4, 1.0), k4
+    k4 = _solve(factors, along(along(along(f4, k1, 1.0 / h), k2, -1.0 / h), k3, -8.0 / (3.0 * h)))
+    return along(fourth, k4, 1.0), k4
 
 
 @kernel
@@ -264,16 +265,4 @@ def _solve(factors, r):
         p_b + q_x * stroke,
         stroke,
         rate + sigma / inverse * stroke,
-    )
-
-
-@kernel
-def _sum(x, y, h):
-    return (
-        x[0] + h * y[0],
-        x[1] + h * y[1],
-        x[2] + h * y[2],
-        x[3] + h * y[3],
-        x[4] + h * y[4],
-        x[5] + h * y[5],
     )

@@ -149,9 +149,9 @@ def advance(
     for i in range(count):
         t = i * h
         k1, p1 = _stage(circuit, bar_stiffness, demand, t, state)
-        k2, p2 = _stage(circuit, bar_stiffness, demand, t + 0.5 * h, _along(state, k1, 0.5 * h))
-        k3, p3 = _stage(circuit, bar_stiffness, demand, t + 0.5 * h, _along(state, k2, 0.5 * h))
-        k4, p4 = _stage(circuit, bar_stiffness, demand, t + h, _along(state, k3, h))
+        k2, p2 = _stage(circuit, bar_stiffness, demand, t + 0.5 * h, along(state, k1, 0.5 * h))
+        k3, p3 = _stage(circuit, bar_stiffness, demand, t + 0.5 * h, along(state, k2, 0.5 * h))
+        k4, p4 = _stage(circuit, bar_stiffness, demand, t + h, along(state, k3, h))
         state, sums = _runge_kutta(state, k1, k2, k3, k4, h), _accumulate(sums, p1, p2, p3, p4)
     return _write(circuit, state, sums, later, energy_now, energy_later, step, count)
 
@@ -173,12 +173,12 @@ def advance_both(
         t = i * h
         k1, p1 = _stage(f, f_stiffness, f_demand, t, f_state)
         l1, q1 = _stage(r, r_stiffness, r_demand, t, r_state)
-        k2, p2 = _stage(f, f_stiffness, f_demand, t + 0.5 * h, _along(f_state, k1, 0.5 * h))
-        l2, q2 = _stage(r, r_stiffness, r_demand, t + 0.5 * h, _along(r_state, l1, 0.5 * h))
-        k3, p3 = _stage(f, f_stiffness, f_demand, t + 0.5 * h, _along(f_state, k2, 0.5 * h))
-        l3, q3 = _stage(r, r_stiffness, r_demand, t + 0.5 * h, _along(r_state, l2, 0.5 * h))
-        k4, p4 = _stage(f, f_stiffness, f_demand, t + h, _along(f_state, k3, h))
-        l4, q4 = _stage(r, r_stiffness, r_demand, t + h, _along(r_state, l3, h))
+        k2, p2 = _stage(f, f_stiffness, f_demand, t + 0.5 * h, along(f_state, k1, 0.5 * h))
+        l2, q2 = _stage(r, r_stiffness, r_demand, t + 0.5 * h, along(r_state, l1, 0.5 * h))
+        k3, p3 = _stage(f, f_stiffness, f_demand, t + 0.5 * h, along(f_state, k2, 0.5 * h))
+        l3, q3 = _stage(r, r_stiffness, r_demand, t + 0.5 * h, along(r_state, l2, 0.5 * h))
+        k4, p4 = _stage(f, f_stiffness, f_demand, t + h, along(f_state, k3, h))
+        l4, q4 = _stage(r, r_stiffness, r_demand, t + h, along(r_state, l3, h))
         f_state, f_sums = _runge_kutta(f_state, k1, k2, k3, k4, h), _accumulate(f_sums, p1, p2, p3, p4)
         r_state, r_sums = _runge_kutta(r_state, l1, l2, l3, l4, h), _accumulate(r_sums, q1, q2, q3, q4)
     return (
@@ -213,7 +213,8 @@ def _stage(circuit, bar_stiffness, demand, t, state):
 
 
 @kernel
-def _along(state, rate, h):
+def along(state, rate, h):
+    """Six numbers `h` along their rates."""
     return (
         state[0] + h * rate[0],
         state[1] + h * rate[1],
