@@ -6,13 +6,13 @@ import numpy as np
 from records import filled
 
 from ars_mujoco.actuators.actuator import Actuator
-from ars_mujoco.files import read
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitState, rates
 from ars_mujoco.hydraulics.line import ONE_SIDED
-from ars_mujoco.hydraulics.reduced_circuit import CircuitState, rates
-from ars_mujoco.inputs import read_inputs
 from ars_mujoco.recording.recording import Recording
-from ars_mujoco.setup import prepare
-from ars_mujoco.simulation import Simulation, simulate
+from ars_mujoco.rigs.setup import prepare
+from ars_mujoco.schema.document import read
+from ars_mujoco.simulation.simulation import Simulation, simulate
+from ars_mujoco.studies.inputs import read_inputs
 
 STIFFNESS = 5700.0  # Nm/rad, of the bench's bar
 AT_REST = (0.0,) * 6

@@ -3,8 +3,8 @@
 import numpy as np
 import shipped
 
-from ars_mujoco.hydraulics.detailed_circuit import detailed_rates
-from ars_mujoco.hydraulics.full_circuit import BYPASS, FAIL_SAFE, POWERS, STATES
+from ars_mujoco.actuators.pump_controlled.full_circuit import detailed_rates
+from ars_mujoco.actuators.pump_controlled.full_plant import BYPASS, FAIL_SAFE, POWERS, STATES
 from ars_mujoco.recording.recording import Recording
 
 ACTUATORS = {"reduced": "pump_controlled", "full": "pump_controlled_full"}

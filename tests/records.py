@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ars_mujoco.parameters import Parameters, fill, record_dtype
+from ars_mujoco.schema.parameters import Parameters, fill, record_dtype
 
 
 def blank(model: type[Parameters]) -> np.record:

@@ -7,11 +7,11 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from ars_mujoco.callback import installed
-from ars_mujoco.inputs import read_compared, read_inputs
+from ars_mujoco.bridge.callback import installed
 from ars_mujoco.recording.recording import Recording
-from ars_mujoco.simulation import Simulation, simulate
-from ars_mujoco.study import Result, simulation_of, study
+from ars_mujoco.simulation.simulation import Simulation, simulate
+from ars_mujoco.studies.inputs import read_compared, read_inputs
+from ars_mujoco.studies.study import Result, simulation_of, study
 
 INTEGRATION = mujoco.mjtState.mjSTATE_INTEGRATION
 

@@ -12,7 +12,8 @@ import pytest
 import yaml
 from typer.testing import CliRunner
 
-from ars_mujoco import cli, library
+from ars_mujoco.cli.app import app as cli
+from ars_mujoco.schema import library
 
 BENCH_CYCLE = """\
 title: A small step
@@ -246,14 +247,14 @@ def test_a_wrong_option_is_a_usage_error(ars):
 @pytest.mark.slow
 def test_list_is_quick():
     start = time.perf_counter()
-    command = [sys.executable, "-c", "from ars_mujoco.cli import main; main()", "list"]
+    command = [sys.executable, "-c", "from ars_mujoco.cli.app import main; main()", "list"]
     assert b"s_curve_120kmh" in subprocess.run(command, capture_output=True, check=True).stdout
     assert time.perf_counter() - start < 0.7
 
 
 def test_check_reports_a_cycle_that_diverges_and_goes_on(monkeypatch):
     from ars_mujoco import study as studies
-    from ars_mujoco.errors import SimulationError
+    from ars_mujoco.schema.errors import SimulationError
 
     real = studies.study
 

@@ -6,8 +6,8 @@ import sys
 import pytest
 
 KERNELS = (
-    "hydraulics.reduced_circuit", "hydraulics.drive", "control.bar_angle_loop", "control.accelerometer", "tires.tire",
-    "driver",
+    "actuators.pump_controlled.third_order_circuit", "actuators.pump_controlled.drive_speed", "hydraulics.pump", "control.accelerometer", "tires.tire",
+    "driving.driver",
 )  # fmt: skip
 
 

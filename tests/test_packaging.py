@@ -43,7 +43,9 @@ def test_everything_lies_inside_the_package(installed):
 
 
 def test_the_shipped_files_are_found_away_from_the_checkout(installed, away):
-    code = "from ars_mujoco.library import *; print(*(path for kind in SHIPPED for path in shipped(kind).values()))"
+    code = (
+        "from ars_mujoco.schema.library import *; print(*(path for kind in SHIPPED for path in shipped(kind).values()))"
+    )
     found = away(sys.executable, "-c", code).split()
     assert all(Path(path).is_relative_to(installed) for path in found)
     assert {"s_curve_120kmh", "sedan", "pump_controlled", "cascade"} <= {Path(path).stem for path in found}

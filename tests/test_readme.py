@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from ars_mujoco.cli import app
+from ars_mujoco.cli.app import app
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()
@@ -35,9 +35,9 @@ def test_every_command_of_the_readme_runs(command, tmp_path, monkeypatch):
 
 
 def test_the_controller_of_the_readme_keeps_the_car_nearly_level(tmp_path):
-    from ars_mujoco.inputs import read_inputs
-    from ars_mujoco.simulation import simulate
-    from ars_mujoco.study import simulation_of
+    from ars_mujoco.simulation.simulation import simulate
+    from ars_mujoco.studies.inputs import read_inputs
+    from ars_mujoco.studies.study import simulation_of
 
     law = tmp_path / "my_controller.py"
     law.write_text(LAW)
@@ -55,7 +55,7 @@ def test_the_program_of_the_readme_runs(capsys):
 
 
 def test_the_inputs_of_the_bench_are_those_of_the_readme(tmp_path, monkeypatch):
-    from ars_mujoco.inputs import read_inputs
+    from ars_mujoco.studies.inputs import read_inputs
 
     forms = dict(re.findall(r"^\| (\w+) \| `(\{.*?\})`", README, re.MULTILINE))
     (header,) = re.findall(r"such as `(time.*?)`", README)
@@ -79,8 +79,8 @@ def test_the_picture_of_the_readme_is_there():
 
 
 def test_the_compensators_of_the_readme_are_accepted(tmp_path):
-    from ars_mujoco.inputs import read_inputs
-    from ars_mujoco.library import shipped
+    from ars_mujoco.schema.library import shipped
+    from ars_mujoco.studies.inputs import read_inputs
 
     (block,) = [block for language, block in BLOCKS if language == "yaml"]
     mine = tmp_path / "mine.yaml"

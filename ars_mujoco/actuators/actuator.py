@@ -4,17 +4,17 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from ars_mujoco.actuators.axle import DETAILED, NO_BAR, PUMP_CONTROLLED, TORSION_BAR
-from ars_mujoco.actuators.drive import Constant, Drive, first_speed
-from ars_mujoco.hydraulics.detailed_circuit import FULL_PLANT, REDUCED_PLANT, start_detailed
-from ars_mujoco.hydraulics.full_circuit import FullCircuit
+from ars_mujoco.actuators.pump_controlled.axle import DETAILED, NO_BAR, PUMP_CONTROLLED, TORSION_BAR
+from ars_mujoco.actuators.pump_controlled.drive import Constant, Drive, first_speed
+from ars_mujoco.actuators.pump_controlled.full_circuit import FULL_PLANT, REDUCED_PLANT, start_detailed
+from ars_mujoco.actuators.pump_controlled.full_plant import FullCircuit
+from ars_mujoco.actuators.pump_controlled.pump_control import FULL, REDUCED, THIRD_ORDER
+from ars_mujoco.actuators.pump_controlled.substeps import detailed_substeps, substeps
+from ars_mujoco.actuators.pump_controlled.temperature import at_temperature
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import Circuit, ReducedCircuit
 from ars_mujoco.hydraulics.metering_edge import largest_stroke_rate
 from ars_mujoco.hydraulics.oil import fluid
-from ars_mujoco.hydraulics.pump_control import FULL, REDUCED, THIRD_ORDER
-from ars_mujoco.hydraulics.reduced_circuit import Circuit, ReducedCircuit
-from ars_mujoco.hydraulics.substeps import detailed_substeps, substeps
-from ars_mujoco.hydraulics.temperature import at_temperature
-from ars_mujoco.parameters import Parameters, fill
+from ars_mujoco.schema.parameters import Parameters, fill
 
 AXLES = ("front", "rear")
 STROKE_RATE_TOLERANCE = 0.2  # of the swash plate's stated speed

@@ -18,9 +18,9 @@ from ars_mujoco.analysis import (
 )
 from ars_mujoco.analysis.figure import save
 from ars_mujoco.analysis.loop import Loop
-from ars_mujoco.errors import InputError
-from ars_mujoco.inputs import Inputs, read_inputs
 from ars_mujoco.recording.folder import write_whole
+from ars_mujoco.schema.errors import InputError
+from ars_mujoco.studies.inputs import Inputs, read_inputs
 
 SCHEMA_VERSION = 1
 CYCLE = "bench_s_curve"  # names the bench and the controller that an analysis is of, unless others are given

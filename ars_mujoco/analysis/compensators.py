@@ -33,7 +33,7 @@ from ars_mujoco.analysis.loop import Loop, loop_of
 from ars_mujoco.analysis.margins import SAMPLE_TIMES, WANTED, bandwidth, sampled
 from ars_mujoco.analysis.parameter_box import PLANT, grid
 from ars_mujoco.hydraulics.pump import ideal_flow
-from ars_mujoco.inputs import read_inputs
+from ars_mujoco.studies.inputs import read_inputs
 
 ROBOT = "robot_step"  # the cycle of the other actuator
 DELAYS = (0.0, 10e-3)  # s

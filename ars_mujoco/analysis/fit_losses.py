@@ -18,11 +18,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ars_mujoco.analysis.figure import ACCENT, DARK, label, save
-from ars_mujoco.errors import InputError
 from ars_mujoco.hydraulics.loss_polynomial import HIGHEST, FlowLoss, LossPolynomial, TorqueLoss, Validity
 from ars_mujoco.recording.folder import write_whole
-from ars_mujoco.suggestion import did_you_mean
-from ars_mujoco.units import measure, to_si
+from ars_mujoco.schema.errors import InputError
+from ars_mujoco.schema.suggestion import did_you_mean
+from ars_mujoco.schema.units import measure, to_si
 
 SCHEMA_VERSION = 1
 NAME = "fit_losses"

@@ -19,7 +19,7 @@ from ars_mujoco.analysis.linearization import closed_loop
 from ars_mujoco.analysis.loop import Loop
 from ars_mujoco.analysis.margins import bandwidth
 from ars_mujoco.analysis.running_loop import follow, started
-from ars_mujoco.kernel import entry
+from ars_mujoco.kernels.kernel import entry
 
 AMPLITUDES = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)  # deg
 DRAWN = (0.1, 0.5, 1.0, 2.0, 5.0, 10.0)

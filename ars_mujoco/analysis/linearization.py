@@ -11,9 +11,8 @@ are commanded, are no states here. `Loop.checks` says which side of the check va
 import control
 import numpy as np
 
-from ars_mujoco.analysis.loop import BOTH_SHUT, Loop
-from ars_mujoco.hydraulics.detailed_circuit import control_state, detailed_rates
-from ars_mujoco.hydraulics.full_circuit import (
+from ars_mujoco.actuators.pump_controlled.full_circuit import control_state, detailed_rates
+from ars_mujoco.actuators.pump_controlled.full_plant import (
     ANGLE,
     BYPASS,
     FAIL_SAFE,
@@ -23,11 +22,12 @@ from ars_mujoco.hydraulics.full_circuit import (
     POWERS,
     RATE,
 )
-from ars_mujoco.hydraulics.full_circuit import A as SIDE_A
-from ars_mujoco.hydraulics.full_circuit import B as SIDE_B
+from ars_mujoco.actuators.pump_controlled.full_plant import A as SIDE_A
+from ars_mujoco.actuators.pump_controlled.full_plant import B as SIDE_B
+from ars_mujoco.actuators.pump_controlled.pump_control import FULL, REDUCED, THIRD_ORDER, control_rates
+from ars_mujoco.analysis.loop import BOTH_SHUT, Loop
 from ars_mujoco.hydraulics.pump import ideal_flow
-from ars_mujoco.hydraulics.pump_control import FULL, REDUCED, THIRD_ORDER, control_rates
-from ars_mujoco.kernel import entry
+from ars_mujoco.kernels.kernel import entry
 
 CONTROL = ("spool", "spool_rate", "control_pressure_a", "control_pressure_b", "stroke", "piston_rate")
 OF_STAGE = {THIRD_ORDER: (0, 1, 4), REDUCED: (0, 1, 4, 2, 5), FULL: (0, 1, 4, 2, 3, 5)}  # of CONTROL, the stroke early

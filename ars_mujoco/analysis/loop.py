@@ -16,15 +16,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ars_mujoco.actuators.actuator import PumpControlled, fill_axle
-from ars_mujoco.actuators.axle import Axle, AxleState
-from ars_mujoco.control.bar_angle_loop import outer_gain
+from ars_mujoco.actuators.pump_controlled.axle import Axle, AxleState
+from ars_mujoco.actuators.pump_controlled.bar_angle_loop import outer_gain
+from ars_mujoco.actuators.pump_controlled.full_circuit import FULL_PLANT, start_detailed
+from ars_mujoco.actuators.pump_controlled.pump_control import THIRD_ORDER
 from ars_mujoco.control.control_unit import ControlUnit
-from ars_mujoco.errors import InputError
-from ars_mujoco.hydraulics.detailed_circuit import FULL_PLANT, start_detailed
 from ars_mujoco.hydraulics.oil import fluid
-from ars_mujoco.hydraulics.pump_control import THIRD_ORDER
-from ars_mujoco.inputs import Inputs
-from ars_mujoco.parameters import Parameters, fill, record_dtype
+from ars_mujoco.schema.errors import InputError
+from ars_mujoco.schema.parameters import Parameters, fill, record_dtype
+from ars_mujoco.studies.inputs import Inputs
 
 RPM = 2.0 * math.pi / 60.0  # rad/s
 STEP = 1e-3  # s, that of the bench

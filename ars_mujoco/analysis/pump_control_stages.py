@@ -13,13 +13,13 @@ import control
 import numpy as np
 from matplotlib.figure import Figure
 
+from ars_mujoco.actuators.pump_controlled.pump_control import FULL, REDUCED, THIRD_ORDER
 from ars_mujoco.analysis.figure import DARK, DASHES, SHADES, label
 from ars_mujoco.analysis.linearization import pump_control
 from ars_mujoco.analysis.loop import Loop
 from ars_mujoco.analysis.margins import bandwidth
 from ars_mujoco.analysis.stable_region import critical_gain
 from ars_mujoco.hydraulics.control_cylinder import common_capacitance
-from ars_mujoco.hydraulics.pump_control import FULL, REDUCED, THIRD_ORDER
 
 STAGES = {"third_order": THIRD_ORDER, "reduced": REDUCED, "full": FULL}
 FREQUENCY = 45.0  # Hz, about the inner loop's bandwidth

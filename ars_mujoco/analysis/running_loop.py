@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from ars_mujoco.actuators.axle import DETAILED, PUMP_CONTROLLED
+from ars_mujoco.actuators.pump_controlled.axle import DETAILED, PUMP_CONTROLLED
+from ars_mujoco.actuators.pump_controlled.full_circuit import WORK, advance_detailed
+from ars_mujoco.actuators.pump_controlled.substeps import detailed_substeps, substeps
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import advance
 from ars_mujoco.analysis.loop import Loop
-from ars_mujoco.hydraulics.detailed_circuit import WORK, advance_detailed
-from ars_mujoco.hydraulics.reduced_circuit import advance
-from ars_mujoco.hydraulics.substeps import detailed_substeps, substeps
-from ars_mujoco.kernel import entry, kernel
+from ars_mujoco.kernels.kernel import entry, kernel
 
 VALVES = (0.0, 1.0)  # openings: bypass shut, fail-safe open
 

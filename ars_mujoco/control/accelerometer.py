@@ -6,25 +6,27 @@ paper's section 5), and it feels a part of gravity as the body rolls: it reads a
 
 import math
 
-from ars_mujoco.channels import Signal
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.channels import channel
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 
 class Accelerometer(Parameters):
     """Lateral accelerometer with a first-order filter."""
 
-    cutoff: Quantity("Hz", gt=0)  # corner frequency of the filter
+    cutoff: float = quantity("Hz", gt=0)  # corner frequency of the filter
 
 
 class AccelerometerState(Parameters):
     """What the sensor keeps from one step to the next."""
 
-    velocity_x: Signal("m/s", "velocity of the sensor one step ago, world axes; its change is the acceleration")
-    velocity_y: Signal("m/s", "the same, y")
-    velocity_z: Signal("m/s", "the same, z")
-    running: Signal("1", "1 once a velocity has been seen")
-    filtered: Signal("m/s^2", "the filter's output")
+    velocity_x: float = channel(
+        "m/s", "velocity of the sensor one step ago, world axes; its change is the acceleration"
+    )
+    velocity_y: float = channel("m/s", "the same, y")
+    velocity_z: float = channel("m/s", "the same, z")
+    running: float = channel("1", "1 once a velocity has been seen")
+    filtered: float = channel("m/s^2", "the filter's output")
 
 
 @kernel

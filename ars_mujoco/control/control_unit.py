@@ -7,9 +7,9 @@ stroke command.
 
 import numpy as np
 
-from ars_mujoco.errors import InputError
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.errors import InputError
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 SLOTS = 64  # physics steps the delay line holds
 
@@ -19,8 +19,8 @@ DELAY_LINE = np.dtype([("head", "f8"), ("front", "f8", SLOTS), ("rear", "f8", SL
 class ControlUnit(Parameters):
     """Timing of the control unit; both times are whole multiples of the physics step."""
 
-    sample_time: Quantity("s", ge=0)  # 0: continuous
-    delay: Quantity("s", ge=0)  # from reading the sensors to the actuator seeing the command
+    sample_time: float = quantity("s", ge=0)  # 0: continuous
+    delay: float = quantity("s", ge=0)  # from reading the sensors to the actuator seeing the command
 
 
 @kernel

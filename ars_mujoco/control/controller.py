@@ -4,15 +4,15 @@ import math
 
 from pydantic import ValidationInfo, field_validator
 
+from ars_mujoco.actuators.pump_controlled.bar_angle_loop import BarAngleLoop
+from ars_mujoco.actuators.pump_controlled.pole_compensator import PoleCompensator
+from ars_mujoco.actuators.pump_controlled.pressure_feedback import PressureFeedback
 from ars_mujoco.control.accelerometer import Accelerometer
-from ars_mujoco.control.bar_angle_loop import BarAngleLoop
 from ars_mujoco.control.control_unit import ControlUnit
-from ars_mujoco.control.pole_compensator import PoleCompensator
-from ars_mujoco.control.pressure_feedback import PressureFeedback
 from ars_mujoco.control.roll_trim import RollTrim
 from ars_mujoco.control.speed_fade import SpeedFade
 from ars_mujoco.control.target import Target
-from ars_mujoco.parameters import Number, Parameters
+from ars_mujoco.schema.parameters import Parameters, number
 
 
 class Reference(Parameters):
@@ -21,7 +21,7 @@ class Reference(Parameters):
     accelerometer: Accelerometer
     target: Target  # roll over lateral acceleration
     fade: SpeedFade
-    front_share: Number(gt=0, lt=1)  # of the bars' torque
+    front_share: float = number(gt=0, lt=1)  # of the bars' torque
     trim: RollTrim
 
 

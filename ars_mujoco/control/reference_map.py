@@ -6,7 +6,7 @@ table once, at set-up (`ars_mujoco.vehicle.reference_map`). Nothing is tuned by 
 
 import numpy as np
 
-from ars_mujoco.kernel import kernel
+from ars_mujoco.kernels.kernel import kernel
 
 KNOTS = 24  # room in the table
 

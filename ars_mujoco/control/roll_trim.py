@@ -1,16 +1,16 @@
 """Roll trim: what the bars add by the measured roll, slowly for what the statics do not know, quickly to damp."""
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
-from ars_mujoco.saturation import saturate
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.kernels.saturation import saturate
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 
 class RollTrim(Parameters):
     """Integral of the roll's error, off with a rate of zero, and damping in proportion to the roll rate."""
 
-    rate: Quantity("1/s", ge=0)  # bar angle a second, over roll error
-    limit: Quantity("rad", ge=0)  # of the integral
-    damping: Quantity("s", ge=0)  # bar angle over roll rate
+    rate: float = quantity("1/s", ge=0)  # bar angle a second, over roll error
+    limit: float = quantity("rad", ge=0)  # of the integral
+    damping: float = quantity("s", ge=0)  # bar angle over roll rate
 
 
 @kernel

@@ -6,15 +6,15 @@ and the loop from the accelerometer over the bars to that sway would feed it.
 
 from pydantic import model_validator
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 
 class SpeedFade(Parameters):
     """Speeds (m/s) from which the reference begins to act, and at which it acts in full."""
 
-    begin: Quantity("m/s", ge=0)
-    full: Quantity("m/s", gt=0)
+    begin: float = quantity("m/s", ge=0)
+    full: float = quantity("m/s", gt=0)
 
     @model_validator(mode="after")
     def _rises(self):

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import AfterValidator
 
 from ars_mujoco.control.reference_map import KNOTS
-from ars_mujoco.parameters import Quantity
+from ars_mujoco.schema.units import Unit
 
 FEWEST, MOST = 2, KNOTS - 1  # knots; the reference map needs one more row, where it ends
 
@@ -38,4 +38,6 @@ def _check(knots: Knots) -> Knots:
     return knots
 
 
-Target = Annotated[tuple[tuple[Quantity("m/s^2", ge=0), Quantity("rad")], ...], AfterValidator(_check)]
+Target = Annotated[
+    tuple[tuple[Annotated[float, Unit("m/s^2", ge=0)], Annotated[float, Unit("rad")]], ...], AfterValidator(_check)
+]

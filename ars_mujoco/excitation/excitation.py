@@ -5,11 +5,11 @@ from functools import cache
 import numpy as np
 from pydantic import create_model, model_validator
 
-from ars_mujoco import signal
+from ars_mujoco.excitation import knots as signal
+from ars_mujoco.excitation.knots import SIGNAL, Knots, KnotsOf
 from ars_mujoco.excitation.oscillation import OSCILLATION, SineOf, SweepOf, oscillating
 from ars_mujoco.excitation.samples import SAMPLES, SamplesOf, sampled
-from ars_mujoco.kernel import kernel
-from ars_mujoco.signal import SIGNAL, Knots, KnotsOf
+from ars_mujoco.kernels.kernel import kernel
 
 JOINED, OSCILLATING, SAMPLED = range(3)
 FORMS = ("knots", "sine", "sweep", "recorded")

@@ -7,8 +7,8 @@ from typing import Annotated
 import numpy as np
 from pydantic import BeforeValidator, ValidationInfo, create_model, field_validator
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, number, quantity
 
 HIGHEST = 100.0  # Hz; the parabolas over steps of 1 ms that the circuit gets are then within 0.2 % of the amplitude
 SPACINGS = ("linear", "logarithmic")
@@ -22,11 +22,11 @@ class Sine(Parameters):
     """offset + amplitude sin(2 pi frequency (t - start) + phase); held before its start and after its last period."""
 
     amplitude: float
-    frequency: Quantity("Hz", gt=0, le=HIGHEST)
-    phase: Quantity("rad") = 0.0
+    frequency: float = quantity("Hz", gt=0, le=HIGHEST)
+    phase: float = quantity("rad", default=0.0)
     offset: float = 0.0
-    start: Quantity("s", ge=0) = 0.0
-    periods: Number(gt=0) | None = None  # else to the end of the cycle
+    start: float = quantity("s", ge=0, default=0.0)
+    periods: float | None = number(gt=0, default=None)  # else to the end of the cycle
 
     def oscillation(self) -> tuple[float, ...]:
         """The numbers of OSCILLATION."""
@@ -39,11 +39,11 @@ class Sweep(Parameters):
 
     amplitude: float
     spacing: Annotated[float, BeforeValidator(lambda spacing: _spacing(spacing))] = LOGARITHMIC
-    first_frequency: Quantity("Hz", ge=0, le=HIGHEST)
-    last_frequency: Quantity("Hz", ge=0, le=HIGHEST)
-    duration: Quantity("s", gt=0)
+    first_frequency: float = quantity("Hz", ge=0, le=HIGHEST)
+    last_frequency: float = quantity("Hz", ge=0, le=HIGHEST)
+    duration: float = quantity("s", gt=0)
     offset: float = 0.0
-    start: Quantity("s", ge=0) = 0.0
+    start: float = quantity("s", ge=0, default=0.0)
 
     @field_validator("first_frequency", "last_frequency")
     @classmethod
@@ -72,14 +72,19 @@ class Sweep(Parameters):
 @cache
 def SineOf(unit: str) -> type[Sine]:  # noqa: N802 (reads as a type)
     """A Sine of a quantity of the dimension of `unit`."""
-    return create_model(f"SineOf({unit})", __base__=Sine, amplitude=(Quantity(unit), ...), offset=(Quantity(unit), 0.0))
+    return create_model(
+        f"SineOf({unit})", __base__=Sine, amplitude=(float, quantity(unit)), offset=(float, quantity(unit, default=0.0))
+    )
 
 
 @cache
 def SweepOf(unit: str) -> type[Sweep]:  # noqa: N802
     """A Sweep of a quantity of the dimension of `unit`."""
     return create_model(
-        f"SweepOf({unit})", __base__=Sweep, amplitude=(Quantity(unit), ...), offset=(Quantity(unit), 0.0)
+        f"SweepOf({unit})",
+        __base__=Sweep,
+        amplitude=(float, quantity(unit)),
+        offset=(float, quantity(unit, default=0.0)),
     )
 
 

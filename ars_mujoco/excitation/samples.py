@@ -11,9 +11,9 @@ from typing import Annotated
 import numpy as np
 from pydantic import PlainSerializer, PlainValidator
 
-from ars_mujoco.files import Written
-from ars_mujoco.kernel import kernel
-from ars_mujoco.units import split, to_si
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.document import Written
+from ars_mujoco.schema.units import split, to_si
 
 MOST = 10_000  # samples: 10 s at 1 kHz, 100 s at 100 Hz
 

@@ -3,8 +3,8 @@
 import math
 
 from ars_mujoco.hydraulics.orifice import rounded_root
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 ROUNDING = 1e5  # Pa, below which its orifice flows laminar
 
@@ -12,9 +12,9 @@ ROUNDING = 1e5  # Pa, below which its orifice flows laminar
 class BypassValve(Parameters):
     """A switching valve between the motor's chambers; `valve_opening` moves it."""
 
-    flow: Quantity("m^3/s", gt=0)  # rated, fully open
-    pressure: Quantity("Pa", gt=0)  # difference at the rated flow
-    time: Quantity("s", gt=0)  # of a full stroke
+    flow: float = quantity("m^3/s", gt=0)  # rated, fully open
+    pressure: float = quantity("Pa", gt=0)  # difference at the rated flow
+    time: float = quantity("s", gt=0)  # of a full stroke
 
 
 @kernel

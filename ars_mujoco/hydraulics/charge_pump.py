@@ -1,17 +1,17 @@
 """Charge pump: a constant flow into a gallery, from which the check valves make up what the lines lose."""
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, number, quantity
 
 
 class ChargePump(Parameters):
     """Fixed displacement pump on the shaft of the main one, with its gallery and the gallery's relief valve."""
 
-    displacement: Quantity("m^3/rad", gt=0)  # V_c/2pi
-    efficiency: Number(gt=0, le=1)  # mechanical
-    relief_pressure: Quantity("Pa", gt=0)  # absolute, at which the gallery opens to the tank
-    relief_conductance: Quantity("m^3/s/Pa", gt=0)  # flow over excess pressure, once open
-    gallery_volume: Quantity("m^3", gt=0)
+    displacement: float = quantity("m^3/rad", gt=0)  # V_c/2pi
+    efficiency: float = number(gt=0, le=1)  # mechanical
+    relief_pressure: float = quantity("Pa", gt=0)  # absolute, at which the gallery opens to the tank
+    relief_conductance: float = quantity("m^3/s/Pa", gt=0)  # flow over excess pressure, once open
+    gallery_volume: float = quantity("m^3", gt=0)
 
 
 @kernel

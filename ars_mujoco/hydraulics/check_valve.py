@@ -1,14 +1,14 @@
 """Check valve: lets oil from the charge gallery into a line, and none back."""
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 
 class CheckValve(Parameters):
     """A spring-loaded check valve."""
 
-    opening_pressure: Quantity("Pa", ge=0)  # of its spring, a difference
-    conductance: Quantity("m^3/s/Pa", gt=0)  # flow over excess pressure, once open
+    opening_pressure: float = quantity("Pa", ge=0)  # of its spring, a difference
+    conductance: float = quantity("m^3/s/Pa", gt=0)  # flow over excess pressure, once open
 
 
 @kernel

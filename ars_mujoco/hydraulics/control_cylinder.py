@@ -7,29 +7,29 @@ their signs exchanged; and the series capacitance of eq. 8 falls with x^2, where
 import math
 
 from ars_mujoco.hydraulics.oil import compressibility, compressibility_slope
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 
 class ControlCylinder(Parameters):
     """Control cylinder with all that moves with it, reduced to its piston."""
 
-    area: Quantity("m^2", gt=0)  # A_AC
-    travel: Quantity("m", gt=0)  # x_max = x_H, from the middle to either end
-    dead_volume: Quantity("m^3", gt=0)  # V_dead of one chamber, lines to the valve included
-    mass: Quantity("kg", gt=0)  # m_equ
-    centring_stiffness: Quantity("N/m", ge=0)  # F_SP over x
-    swash_force: Quantity("N", ge=0)  # F_SL at `swash_pressure`: a delivering pump pushes its plate back
-    swash_pressure: Quantity("Pa", gt=0)
-    coulomb_friction: Quantity("N", ge=0)  # f_C
-    static_friction: Quantity("N", ge=0)  # f_s
-    static_decay: Quantity("s/m", ge=0)  # tau_s
-    viscous_friction: Quantity("Ns/m", ge=0)  # f_v
-    friction_speed: Quantity("m/s", gt=0)  # over which the friction's sign is rounded
-    internal_leakage: Quantity("m^3/s/Pa", ge=0)  # k_Li
-    external_leakage: Quantity("m^3/s/Pa", ge=0)  # k_LA = k_LB, to the return line
-    stop_stiffness: Quantity("N/m", gt=0)  # of the mechanical stops at either end
-    stop_damping: Quantity("Ns/m", ge=0)
+    area: float = quantity("m^2", gt=0)  # A_AC
+    travel: float = quantity("m", gt=0)  # x_max = x_H, from the middle to either end
+    dead_volume: float = quantity("m^3", gt=0)  # V_dead of one chamber, lines to the valve included
+    mass: float = quantity("kg", gt=0)  # m_equ
+    centring_stiffness: float = quantity("N/m", ge=0)  # F_SP over x
+    swash_force: float = quantity("N", ge=0)  # F_SL at `swash_pressure`: a delivering pump pushes its plate back
+    swash_pressure: float = quantity("Pa", gt=0)
+    coulomb_friction: float = quantity("N", ge=0)  # f_C
+    static_friction: float = quantity("N", ge=0)  # f_s
+    static_decay: float = quantity("s/m", ge=0)  # tau_s
+    viscous_friction: float = quantity("Ns/m", ge=0)  # f_v
+    friction_speed: float = quantity("m/s", gt=0)  # over which the friction's sign is rounded
+    internal_leakage: float = quantity("m^3/s/Pa", ge=0)  # k_Li
+    external_leakage: float = quantity("m^3/s/Pa", ge=0)  # k_LA = k_LB, to the return line
+    stop_stiffness: float = quantity("N/m", gt=0)  # of the mechanical stops at either end
+    stop_damping: float = quantity("Ns/m", ge=0)
 
 
 @kernel

@@ -2,8 +2,8 @@
 
 import math
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 SHUT = 0.05  # opening under which no oil passes
 LAMINAR_SHARE = 0.05  # of the rated flow, below which its orifice flows laminar
@@ -12,9 +12,9 @@ LAMINAR_SHARE = 0.05  # of the rated flow, below which its orifice flows laminar
 class FailSafeValve(Parameters):
     """A switching valve in the line; `valve_opening` moves it."""
 
-    flow: Quantity("m^3/s", gt=0)  # rated, fully open
-    pressure: Quantity("Pa", gt=0)  # drop at the rated flow
-    time: Quantity("s", gt=0)  # of a full stroke
+    flow: float = quantity("m^3/s", gt=0)  # rated, fully open
+    pressure: float = quantity("Pa", gt=0)  # drop at the rated flow
+    time: float = quantity("s", gt=0)  # of a full stroke
 
 
 @kernel

@@ -1,7 +1,7 @@
 """Lines and chambers: the compressible oil between pump and motor (paper eqs. 30 to 32), as one capacitance."""
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Choice, Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, choice, quantity
 
 SERIES, ONE_SIDED = 0.0, 1.0  # weights, for a branch in the loop over the substeps would cost several percent of it
 
@@ -13,9 +13,9 @@ class Line(Parameters):
     low pressure is held constant, as by a charge supply, and the high-pressure side alone counts: C_0 = V_0/K.
     """
 
-    volume: Quantity("m^3", gt=0)  # V_L, one line
-    capacitance: Quantity("m^3/Pa", gt=0)  # C_0, of `sides`, with the motor in its middle
-    sides: Choice("series", "one_sided") = SERIES
+    volume: float = quantity("m^3", gt=0)  # V_L, one line
+    capacitance: float = quantity("m^3/Pa", gt=0)  # C_0, of `sides`, with the motor in its middle
+    sides: float = choice("series", "one_sided", default=SERIES)
 
 
 @kernel

@@ -14,11 +14,16 @@ from typing import Annotated, ClassVar, Self
 import numpy as np
 from pydantic import AfterValidator
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, quantity
+from ars_mujoco.schema.units import Unit
 
 HIGHEST = 4  # order in each variable
 ROUNDING = 0.01  # of p_norm, over which a flow loss that is there without pressure takes its direction
+
+Share = Annotated[float, Unit("1", ge=0, le=1)]
+Speed = Annotated[float, Unit("rad/s", ge=0)]
+Pressure = Annotated[float, Unit("Pa", ge=0)]
 
 TERM = re.compile(rf"k_([0-{HIGHEST}])([0-{HIGHEST}])([0-{HIGHEST}])")
 
@@ -39,16 +44,12 @@ def _check_rising(ends: tuple[float, float]) -> tuple[float, float]:
     return ends
 
 
-def _Range(end):  # noqa: N802 (reads as a type)
-    return Annotated[tuple[end, end], AfterValidator(_check_rising)]
-
-
 class Validity(Parameters):
     """The box in which a polynomial holds: least and largest |X|, |n| and |dp|."""
 
-    stroke: _Range(Number(ge=0, le=1))
-    speed: _Range(Quantity("rad/s", ge=0))
-    pressure: _Range(Quantity("Pa", ge=0))
+    stroke: Annotated[tuple[Share, Share], AfterValidator(_check_rising)]
+    speed: Annotated[tuple[Speed, Speed], AfterValidator(_check_rising)]
+    pressure: Annotated[tuple[Pressure, Pressure], AfterValidator(_check_rising)]
 
 
 class LossPolynomial(Parameters):
@@ -65,9 +66,9 @@ class LossPolynomial(Parameters):
         ]
     )
 
-    normal_speed: Quantity("rad/s", gt=0)  # n_norm
-    normal_pressure: Quantity("Pa", gt=0)  # p_norm
-    coefficients: Annotated[dict[str, Number()], AfterValidator(_check_terms)]  # k_ijk
+    normal_speed: float = quantity("rad/s", gt=0)  # n_norm
+    normal_pressure: float = quantity("Pa", gt=0)  # p_norm
+    coefficients: Annotated[dict[str, Annotated[float, Unit("1")]], AfterValidator(_check_terms)]  # k_ijk
     validity: Validity
 
     @property
@@ -121,7 +122,7 @@ class FlowLoss(LossPolynomial):
 
     GROWTH: ClassVar[int] = 2  # power of a length that the norm goes with
 
-    norm: Quantity("m^3/s", ge=0)  # Q_S,norm
+    norm: float = quantity("m^3/s", ge=0)  # Q_S,norm
 
 
 class TorqueLoss(LossPolynomial):
@@ -129,7 +130,7 @@ class TorqueLoss(LossPolynomial):
 
     GROWTH: ClassVar[int] = 3
 
-    norm: Quantity("Nm", ge=0)  # M_S,norm
+    norm: float = quantity("Nm", ge=0)  # M_S,norm
 
 
 @kernel

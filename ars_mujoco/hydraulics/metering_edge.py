@@ -9,19 +9,19 @@ import math
 from pydantic import ValidationInfo, field_validator
 
 from ars_mujoco.hydraulics.orifice import root_slope, rounded_root
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 
 class MeteringEdge(Parameters):
     """Edges and ports of the servo valve; pressures are absolute."""
 
-    constant: Quantity("m^2.5/kg^0.5", gt=0)  # B, with the discharge coefficient in it
-    stroke: Quantity("m", gt=0)  # full stroke of the spool
-    laminar_pressure: Quantity("Pa", gt=0)  # below about this difference the flow is laminar
-    supply_pressure: Quantity("Pa", gt=0)  # p_S
-    return_pressure: Quantity("Pa", gt=0)  # p_R, the tank's too
-    leakage: Quantity("m^3/s/Pa", ge=0)  # of each closed edge: supply to chamber, and chamber to return
+    constant: float = quantity("m^2.5/kg^0.5", gt=0)  # B, with the discharge coefficient in it
+    stroke: float = quantity("m", gt=0)  # full stroke of the spool
+    laminar_pressure: float = quantity("Pa", gt=0)  # below about this difference the flow is laminar
+    supply_pressure: float = quantity("Pa", gt=0)  # p_S
+    return_pressure: float = quantity("Pa", gt=0)  # p_R, the tank's too
+    leakage: float = quantity("m^3/s/Pa", ge=0)  # of each closed edge: supply to chamber, and chamber to return
 
     @field_validator("return_pressure")
     @classmethod

@@ -4,8 +4,8 @@ import math
 
 from pydantic import ValidationInfo, field_validator
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, number, quantity
 
 REFERENCE_PRESSURE = 1e5  # Pa, at which the share of air is stated
 DENSITY_TEMPERATURE = 288.15  # K, 15 degC, at which catalogues state the density
@@ -17,12 +17,14 @@ SOFTENING = 4e-3  # 1/K  J  fall of the bulk modulus
 class Oil(Parameters):
     """A hydraulic oil as its data sheet states it, and its temperature."""
 
-    bulk_modulus: Quantity("Pa", gt=0)  # K, of the liquid alone, at 50 degC
-    air: Number(gt=0, lt=1)  # a_0, undissolved air at 1 bar, share of volume; without any, pressures could pass zero
-    density: Quantity("kg/m^3", gt=0)  # at 15 degC
-    temperature: Quantity("K", ge=233.15 - 1e-6, le=423.15)  # -40 degC, which is no round number of K
-    viscosity_40: Quantity("m^2/s", ge=2e-6)  # kinematic, at 40 degC
-    viscosity_100: Quantity("m^2/s", ge=2e-6)  # at 100 degC
+    bulk_modulus: float = quantity("Pa", gt=0)  # K, of the liquid alone, at 50 degC
+    air: float = number(
+        gt=0, lt=1
+    )  # a_0, undissolved air at 1 bar, share of volume; without any, pressures could pass zero
+    density: float = quantity("kg/m^3", gt=0)  # at 15 degC
+    temperature: float = quantity("K", ge=233.15 - 1e-6, le=423.15)  # -40 degC, which is no round number of K
+    viscosity_40: float = quantity("m^2/s", ge=2e-6)  # kinematic, at 40 degC
+    viscosity_100: float = quantity("m^2/s", ge=2e-6)  # at 100 degC
 
     @field_validator("viscosity_100")
     @classmethod
@@ -35,10 +37,10 @@ class Oil(Parameters):
 class Fluid(Parameters):
     """An oil at its temperature: what the kernels read."""
 
-    bulk_modulus: Quantity("Pa", gt=0)
-    air: Number(gt=0, lt=1)
-    density: Quantity("kg/m^3", gt=0)
-    viscosity: Quantity("m^2/s", gt=0)  # kinematic
+    bulk_modulus: float = quantity("Pa", gt=0)
+    air: float = number(gt=0, lt=1)
+    density: float = quantity("kg/m^3", gt=0)
+    viscosity: float = quantity("m^2/s", gt=0)  # kinematic
 
 
 def fluid(oil: Oil) -> Fluid:

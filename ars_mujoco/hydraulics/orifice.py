@@ -2,7 +2,7 @@
 
 import math
 
-from ars_mujoco.kernel import kernel
+from ars_mujoco.kernels.kernel import kernel
 
 
 @kernel

@@ -5,8 +5,9 @@ from typing import Annotated
 
 from pydantic import AfterValidator
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, quantity
+from ars_mujoco.schema.units import Unit
 
 LAMINAR, TURBULENT = 2300.0, 4000.0  # Reynolds numbers up to which, and from which, the flow is so
 MOST_LUMPS = 4
@@ -22,10 +23,12 @@ def _whole(number: float) -> float:
 class Pipe(Parameters):
     """The line of one side, from pump to motor."""
 
-    length: Quantity("m", gt=0)  # l_L
-    diameter: Quantity("m", gt=0)  # d_L, inner
-    wall_compliance: Quantity("1/Pa", ge=0)  # gain of volume with pressure; none for steel, 1e-10 to 1e-9 for a hose
-    lumps: Annotated[Number(ge=1, le=MOST_LUMPS), AfterValidator(_whole)]  # pieces it is divided into
+    length: float = quantity("m", gt=0)  # l_L
+    diameter: float = quantity("m", gt=0)  # d_L, inner
+    wall_compliance: float = quantity(
+        "1/Pa", ge=0
+    )  # gain of volume with pressure; none for steel, 1e-10 to 1e-9 for a hose
+    lumps: Annotated[float, Unit("1", ge=1, le=MOST_LUMPS), AfterValidator(_whole)]  # pieces it is divided into
 
 
 @kernel

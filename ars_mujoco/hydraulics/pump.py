@@ -5,17 +5,17 @@ import math
 from pydantic import model_validator
 
 from ars_mujoco.hydraulics.loss_polynomial import FlowLoss, TorqueLoss, beyond, even_loss, odd_loss
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
-from ars_mujoco.saturation import saturate
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.kernels.saturation import saturate
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 
 class Pump(Parameters):
     """Swash-plate axial piston pump, driven at a given shaft speed."""
 
-    displacement: Quantity("m^3/rad", gt=0)  # V_p/2pi at full stroke
-    speed: Quantity("rad/s", gt=0)  # shaft speed where the drive is constant
-    leakage: Quantity("m^3/s/Pa", ge=0)  # the pump's share of k_Li
+    displacement: float = quantity("m^3/rad", gt=0)  # V_p/2pi at full stroke
+    speed: float = quantity("rad/s", gt=0)  # shaft speed where the drive is constant
+    leakage: float = quantity("m^3/s/Pa", ge=0)  # the pump's share of k_Li
     flow_loss: FlowLoss | None = None  # besides the leakage
     torque_loss: TorqueLoss
 

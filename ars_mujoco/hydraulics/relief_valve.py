@@ -1,14 +1,14 @@
 """Relief valve: limits a pressure difference, of both directions or of one line."""
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 
 class ReliefValve(Parameters):
     """A pair of relief valves, one a line; both open at the same pressure."""
 
-    pressure: Quantity("Pa", gt=0)  # opening pressure
-    conductance: Quantity("m^3/s/Pa", ge=0)  # flow over excess pressure, once open
+    pressure: float = quantity("Pa", gt=0)  # opening pressure
+    conductance: float = quantity("m^3/s/Pa", ge=0)  # flow over excess pressure, once open
 
 
 @kernel

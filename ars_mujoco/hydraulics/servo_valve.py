@@ -1,16 +1,16 @@
 """Servo valve: the spool as a second-order lag with limited speed (paper eqs. 18 and 19, the saturation of Fig. 7)."""
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Number, Parameters, Quantity
-from ars_mujoco.saturation import saturate
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.kernels.saturation import saturate
+from ars_mujoco.schema.parameters import Parameters, number, quantity
 
 
 class ServoValve(Parameters):
     """Single-stage servo valve; spool strokes are fractions of full stroke."""
 
-    frequency: Quantity("rad/s", gt=0)  # natural frequency w_sv
-    damping: Number(gt=0)  # d_sv; 1/sqrt(2) makes the frequency the -3 dB point
-    max_rate: Quantity("1/s", gt=0)  # spool speed limit, full strokes a second
+    frequency: float = quantity("rad/s", gt=0)  # natural frequency w_sv
+    damping: float = number(gt=0)  # d_sv; 1/sqrt(2) makes the frequency the -3 dB point
+    max_rate: float = quantity("1/s", gt=0)  # spool speed limit, full strokes a second
 
 
 @kernel

@@ -1,7 +1,7 @@
 """The opening of a switching valve: it follows its command at the speed of its stroke."""
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.saturation import saturate
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.kernels.saturation import saturate
 
 CLOSE = 0.05  # of a stroke: nearer to its command the valve slows down, so that its rate has no step
 

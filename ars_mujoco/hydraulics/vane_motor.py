@@ -2,23 +2,23 @@
 
 import math
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 
 class VaneMotor(Parameters):
     """Rotary vane motor between the two halves of the stabilizer bar."""
 
-    displacement: Quantity("m^3/rad", gt=0)  # D = V_M/2pi
-    inertia: Quantity("kg*m^2", gt=0)  # Theta, the bar's halves included
-    leakage: Quantity("m^3/s/Pa", ge=0)  # the motor's share of k_Li
-    coulomb_friction: Quantity("Nm", ge=0)  # r_C
-    static_friction: Quantity("Nm", ge=0)  # r_H, above r_C at standstill
-    static_decay: Quantity("s/rad", ge=0)  # tau_H
-    viscous_friction: Quantity("Nms/rad", ge=0)  # r_v
-    friction_speed: Quantity("rad/s", gt=0)  # w_s, over which the friction's sign is rounded
-    stop_angle: Quantity("rad", gt=0)  # phi_n, the vane's mechanical stop
-    stop_stiffness: Quantity("Nm/rad", ge=0)  # of that stop
+    displacement: float = quantity("m^3/rad", gt=0)  # D = V_M/2pi
+    inertia: float = quantity("kg*m^2", gt=0)  # Theta, the bar's halves included
+    leakage: float = quantity("m^3/s/Pa", ge=0)  # the motor's share of k_Li
+    coulomb_friction: float = quantity("Nm", ge=0)  # r_C
+    static_friction: float = quantity("Nm", ge=0)  # r_H, above r_C at standstill
+    static_decay: float = quantity("s/rad", ge=0)  # tau_H
+    viscous_friction: float = quantity("Nms/rad", ge=0)  # r_v
+    friction_speed: float = quantity("rad/s", gt=0)  # w_s, over which the friction's sign is rounded
+    stop_angle: float = quantity("rad", gt=0)  # phi_n, the vane's mechanical stop
+    stop_stiffness: float = quantity("Nm/rad", ge=0)  # of that stop
 
 
 @kernel

@@ -9,11 +9,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryFile
 
-from ars_mujoco.errors import InputError
 from ars_mujoco.recording.parquet_file import write_parquet
 from ars_mujoco.recording.recording import Recording
-from ars_mujoco.recording.rerun_file import RerunFile, part_of
+from ars_mujoco.recording.rerun.rerun_file import RerunFile, part_of
 from ars_mujoco.recording.summary import write_summary
+from ars_mujoco.schema.errors import InputError
 
 RRD, PARQUET, SUMMARY = "run.rrd", "run.parquet", "summary.json"
 

@@ -6,8 +6,8 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from ars_mujoco.channels import Channel
 from ars_mujoco.recording.recording import Recording
+from ars_mujoco.schema.channels import Channel
 
 TIME = Channel("time", "s", "time since the start of the run")
 TITLE = b"ars_mujoco:title"

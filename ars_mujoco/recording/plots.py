@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ars_mujoco.channels import Channel
-from ars_mujoco.recording.display import CORNERS, quantity_of
+from ars_mujoco.recording.rerun.display import CORNERS, quantity_of
+from ars_mujoco.schema.channels import Channel
 
 
 @dataclass(frozen=True)

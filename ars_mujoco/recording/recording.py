@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 import mujoco
 import numpy as np
 
-from ars_mujoco.channels import Channel
+from ars_mujoco.schema.channels import Channel
 
 GEOM_TYPES = {
     int(mujoco.mjtGeom.mjGEOM_SPHERE): "sphere",

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import rates
 from ars_mujoco.analysis import (
     compensators,
     frequency_response,
@@ -17,12 +18,11 @@ from ars_mujoco.analysis import (
 from ars_mujoco.analysis.analyze import read_analyzed
 from ars_mujoco.analysis.loop import Loop, loop_of
 from ars_mujoco.analysis.parameter_box import TABLE_2
-from ars_mujoco.hydraulics.reduced_circuit import rates
-from ars_mujoco.inputs import Inputs, read_inputs
-from ars_mujoco.kernel import entry
+from ars_mujoco.kernels.kernel import entry
 from ars_mujoco.recording.recording import Recording
-from ars_mujoco.simulation import simulate
-from ars_mujoco.study import simulation_of
+from ars_mujoco.simulation.simulation import simulate
+from ars_mujoco.studies.inputs import Inputs, read_inputs
+from ars_mujoco.studies.study import simulation_of
 
 FULL = "pump_controlled_full"  # the actuator with lines, oil and a pump control of their own
 S_CURVE, SMALL_STEP, LARGE_STEP = "bench_s_curve", "bench_step_1deg", "bench_step_10deg"

@@ -22,7 +22,7 @@ from ars_mujoco.reproduce.claim import (
 )
 from ars_mujoco.reproduce.evidence import Evidence
 from ars_mujoco.reproduce.sizing import BAR, MAX_ANGLE, MAX_PRESSURE, corner_frequency
-from ars_mujoco.units import measure
+from ars_mujoco.schema.units import measure
 
 EQUAL = 1e-9  # relative; two forms of one equation agree to this
 CONSERVED = 1e-4  # of the oil, by the trapezoidal rule

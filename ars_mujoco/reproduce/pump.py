@@ -8,7 +8,7 @@ import numpy as np
 from ars_mujoco.hydraulics.control_cylinder import common_capacitance
 from ars_mujoco.hydraulics.metering_edge import common_flow
 from ars_mujoco.hydraulics.servo_valve import spool_acceleration
-from ars_mujoco.kernel import entry
+from ars_mujoco.kernels.kernel import entry
 from ars_mujoco.reproduce.claim import (
     REPRODUCED,
     Finding,

@@ -9,8 +9,7 @@ from ars_mujoco.analysis.figure import ACCENT, DARK, DASHES, MIDDLE_GREY, label
 from ars_mujoco.analysis.loop import RPM, loop_of
 from ars_mujoco.analysis.margins import margins, sampled_loop
 from ars_mujoco.analysis.parameter_box import TABLE_2
-from ars_mujoco.inputs import read_inputs
-from ars_mujoco.metrics import G
+from ars_mujoco.metrics.metric import G
 from ars_mujoco.reproduce.claim import (
     Finding,
     Group,
@@ -22,6 +21,7 @@ from ars_mujoco.reproduce.claim import (
 )
 from ars_mujoco.reproduce.evidence import S_CURVE, SMALL_STEP, Evidence
 from ars_mujoco.reproduce.sizing import MAX_TORQUE
+from ars_mujoco.studies.inputs import read_inputs
 
 CYCLE, CONTROLLER = "roll_plane_step", "level"  # the cycle, and the controller that it names
 BANDWIDTH, FACTOR = 12.0, 4.0  # Hz, 1: section 5

@@ -4,24 +4,24 @@ import math
 
 import numpy as np
 
-from ars_mujoco.actuators.axle import AxleOutput
-from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
-from ars_mujoco.channels import Signal
+from ars_mujoco.actuators.pump_controlled import stabilizers
+from ars_mujoco.actuators.pump_controlled.axle import AxleOutput
+from ars_mujoco.actuators.pump_controlled.drive_speed import DriveOutput
+from ars_mujoco.actuators.pump_controlled.full_circuit import WORK
+from ars_mujoco.actuators.pump_controlled.stabilizers import check_circuits, stabilize_both
+from ars_mujoco.bridge.callback import SIGNATURE, fields, record_at, world_address
+from ars_mujoco.bridge.world import begin, check_finite, layout_version, world_dtype
 from ars_mujoco.excitation.excitation import EXCITATION, value
-from ars_mujoco.hydraulics.detailed_circuit import WORK
-from ars_mujoco.hydraulics.drive import DriveOutput
-from ars_mujoco.kernel import NativeCallback, kernel
-from ars_mujoco.parameters import Parameters, record_dtype
-from ars_mujoco.rigs import stabilizers
-from ars_mujoco.rigs.stabilizers import check_circuits, stabilize_both
-from ars_mujoco.world import begin, check_finite, layout_version, world_dtype
+from ars_mujoco.kernels.kernel import NativeCallback, kernel
+from ars_mujoco.schema.channels import channel
+from ars_mujoco.schema.parameters import Parameters, record_dtype
 
 NAME = "bench"
 NO_SPEED = 0.0  # m/s; the bench has no road
 
 
 class Ends(Parameters):
-    travel: Signal("m", "travel of the bar's left end less that of its right")
+    travel: float = channel("m", "travel of the bar's left end less that of its right")
 
 
 class Output(Parameters):

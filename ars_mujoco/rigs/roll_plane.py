@@ -3,17 +3,11 @@
 import mujoco
 import numpy as np
 
-from ars_mujoco.actuators.axle import AxleOutput
-from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
-from ars_mujoco.channels import Signal
-from ars_mujoco.control.sensors import SENSORS
-from ars_mujoco.hydraulics.detailed_circuit import WORK
-from ars_mujoco.hydraulics.drive import DriveOutput
-from ars_mujoco.kernel import NativeCallback, entry, kernel
-from ars_mujoco.parameters import Parameters, record_dtype
-from ars_mujoco.rigs import reference, stabilizers
-from ars_mujoco.rigs.reference import SensorOutput, own_reference, read_accelerometer
-from ars_mujoco.rigs.stabilizers import (
+from ars_mujoco.actuators.pump_controlled import stabilizers
+from ars_mujoco.actuators.pump_controlled.axle import AxleOutput
+from ars_mujoco.actuators.pump_controlled.drive_speed import DriveOutput
+from ars_mujoco.actuators.pump_controlled.full_circuit import WORK
+from ars_mujoco.actuators.pump_controlled.stabilizers import (
     BAR_ADDRESSES,
     apply_bar_torques,
     bar_addresses,
@@ -22,17 +16,24 @@ from ars_mujoco.rigs.stabilizers import (
     stabilize_both,
     twist,
 )
-from ars_mujoco.signal import SIGNAL, value
-from ars_mujoco.world import begin, check_finite, layout_version, world_dtype
+from ars_mujoco.bridge.callback import SIGNATURE, fields, record_at, world_address
+from ars_mujoco.bridge.world import begin, check_finite, layout_version, world_dtype
+from ars_mujoco.control import reference
+from ars_mujoco.control.reference import SensorOutput, own_reference, read_accelerometer
+from ars_mujoco.control.sensors import SENSORS
+from ars_mujoco.excitation.knots import SIGNAL, value
+from ars_mujoco.kernels.kernel import NativeCallback, entry, kernel
+from ars_mujoco.schema.channels import channel
+from ars_mujoco.schema.parameters import Parameters, record_dtype
 
 NAME = "roll_plane"
 NO_SPEED = 100.0  # m/s; the rig has none, and a controller that fades in with speed must act
 
 
 class BodyOutput(Parameters):
-    roll: Signal("rad", "roll of the body, positive right side down")
-    roll_rate: Signal("rad/s", "its rate")
-    lateral_acceleration: Signal("m/s^2", "the lateral force over the mass, positive as in a left turn")
+    roll: float = channel("rad", "roll of the body, positive right side down")
+    roll_rate: float = channel("rad/s", "its rate")
+    lateral_acceleration: float = channel("m/s^2", "the lateral force over the mass, positive as in a left turn")
 
 
 class Output(Parameters):

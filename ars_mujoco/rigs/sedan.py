@@ -10,18 +10,11 @@ import math
 import mujoco
 import numpy as np
 
-from ars_mujoco.actuators.axle import AxleOutput
-from ars_mujoco.callback import SIGNATURE, fields, record_at, world_address
-from ars_mujoco.channels import Signal
-from ars_mujoco.control.sensors import SENSORS
-from ars_mujoco.driver import Driver, DriverOutput, DriverState, drive, preview
-from ars_mujoco.hydraulics.detailed_circuit import WORK
-from ars_mujoco.hydraulics.drive import DriveOutput
-from ars_mujoco.kernel import NativeCallback, entry, kernel
-from ars_mujoco.parameters import Parameters, record_dtype
-from ars_mujoco.rigs import reference, stabilizers
-from ars_mujoco.rigs.reference import SensorOutput, own_reference, read_accelerometer
-from ars_mujoco.rigs.stabilizers import (
+from ars_mujoco.actuators.pump_controlled import stabilizers
+from ars_mujoco.actuators.pump_controlled.axle import AxleOutput
+from ars_mujoco.actuators.pump_controlled.drive_speed import DriveOutput
+from ars_mujoco.actuators.pump_controlled.full_circuit import WORK
+from ars_mujoco.actuators.pump_controlled.stabilizers import (
     BAR_ADDRESSES,
     apply_bar_torques,
     bar_addresses,
@@ -30,10 +23,18 @@ from ars_mujoco.rigs.stabilizers import (
     stabilize_both,
     twist,
 )
-from ars_mujoco.road import Bump, height_and_slope
-from ars_mujoco.signal import SIGNAL, slope, value
+from ars_mujoco.bridge.callback import SIGNATURE, fields, record_at, world_address
+from ars_mujoco.bridge.world import begin, check_finite, layout_version, world_dtype
+from ars_mujoco.control import reference
+from ars_mujoco.control.reference import SensorOutput, own_reference, read_accelerometer
+from ars_mujoco.control.sensors import SENSORS
+from ars_mujoco.driving.driver import Driver, DriverOutput, DriverState, drive, preview
+from ars_mujoco.excitation.knots import SIGNAL, slope, value
+from ars_mujoco.kernels.kernel import NativeCallback, entry, kernel
+from ars_mujoco.roads.bump import Bump, height_and_slope
+from ars_mujoco.schema.channels import channel
+from ars_mujoco.schema.parameters import Parameters, record_dtype
 from ars_mujoco.tires.tire import Tire, TireOutput, TireState, tire
-from ars_mujoco.world import begin, check_finite, layout_version, world_dtype
 
 NAME = "sedan"
 CORNERS = ("fl", "fr", "rl", "rr")
@@ -41,22 +42,22 @@ WALKING = 1.0  # m/s; below it a lateral acceleration asks for no tighter path
 
 
 class BodyOutput(Parameters):
-    roll: Signal("rad", "roll of the body against the road plane, positive right side down")
-    roll_rate: Signal("rad/s", "its rate")
-    pitch: Signal("rad", "pitch, positive nose down")
-    heave: Signal("m", "height of the body's frame, which lies on the road at rest")
-    lateral_acceleration: Signal("m/s^2", "of the sprung centre of gravity, across the heading, left positive")
-    yaw_rate: Signal("rad/s", "yaw rate, positive to the left")
-    speed: Signal("m/s", "forward speed")
-    sideslip: Signal("rad", "direction of travel less heading")
-    x: Signal("m", "position")
-    y: Signal("m", "position")
-    yaw: Signal("rad", "heading")
+    roll: float = channel("rad", "roll of the body against the road plane, positive right side down")
+    roll_rate: float = channel("rad/s", "its rate")
+    pitch: float = channel("rad", "pitch, positive nose down")
+    heave: float = channel("m", "height of the body's frame, which lies on the road at rest")
+    lateral_acceleration: float = channel("m/s^2", "of the sprung centre of gravity, across the heading, left positive")
+    yaw_rate: float = channel("rad/s", "yaw rate, positive to the left")
+    speed: float = channel("m/s", "forward speed")
+    sideslip: float = channel("rad", "direction of travel less heading")
+    x: float = channel("m", "position")
+    y: float = channel("m", "position")
+    yaw: float = channel("rad", "heading")
 
 
 class SuspensionOutput(Parameters):
-    travel: Signal("rad", "angle of the swing arm, positive in jounce")
-    rate: Signal("rad/s", "its rate")
+    travel: float = channel("rad", "angle of the swing arm, positive in jounce")
+    rate: float = channel("rad/s", "its rate")
 
 
 class CornerOutput(Parameters):

@@ -7,7 +7,7 @@ axes; the spin axis points left, so that a positive spin rolls forward.
 
 import math
 
-from ars_mujoco.kernel import kernel
+from ars_mujoco.kernels.kernel import kernel
 
 FLAT_ON_ITS_SIDE = 1e-9  # least cosine of the camber: a wheel that lies on the road has no direction to roll in
 

@@ -17,8 +17,8 @@ import math
 
 from pydantic import model_validator
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, number, quantity
 
 NO_SLIP = 1e-24  # far under the square of any slip: zero slip gets a finite direction, and exactly no force
 
@@ -30,22 +30,22 @@ class MagicFormula(Parameters):
     3), grade "judgement".
     """
 
-    Fz0: Quantity("N", gt=0) = 4000.0  # nominal load
-    Fz_max: Quantity("N", gt=0) = 10000.0  # friction and trail are held beyond it: the fits end there
-    pCy1: Number(ge=1, le=2) = 1.35  # lateral shape
-    pDy1: Number(gt=0) = 1.05  # lateral friction at Fz0
-    pDy2: Number() = -0.18  # its change per dfz = (Fz - Fz0) / Fz0
-    pEy1: Number(le=1) = -0.8  # lateral curvature
-    pKy1: Number(gt=0) = 22.0  # greatest cornering stiffness over Fz0, 1/rad; the sedan's rear has 24.5
-    pKy2: Number(gt=0) = 2.0  # load of the greatest cornering stiffness over Fz0
-    pKy6: Number(ge=0) = 0.92  # camber stiffness over Fz, 1/rad
-    pCx1: Number(ge=1, le=2) = 1.65  # longitudinal shape
-    pDx1: Number(gt=0) = 1.15  # longitudinal friction at Fz0
-    pDx2: Number() = -0.10  # its change per dfz
-    pEx1: Number(le=1) = 0.3  # longitudinal curvature
-    pKx1: Number(gt=0) = 21.5  # longitudinal slip stiffness over Fz
-    trail: Quantity("m", ge=0) = 0.03  # pneumatic trail at Fz0 and no slip; in proportion to the load
-    trail_slip: Number(gt=0) = 2.2  # normalised slip at which half of the trail is left
+    Fz0: float = quantity("N", gt=0, default=4000.0)  # nominal load
+    Fz_max: float = quantity("N", gt=0, default=10000.0)  # friction and trail are held beyond it: the fits end there
+    pCy1: float = number(ge=1, le=2, default=1.35)  # lateral shape
+    pDy1: float = number(gt=0, default=1.05)  # lateral friction at Fz0
+    pDy2: float = number(default=-0.18)  # its change per dfz = (Fz - Fz0) / Fz0
+    pEy1: float = number(le=1, default=-0.8)  # lateral curvature
+    pKy1: float = number(gt=0, default=22.0)  # greatest cornering stiffness over Fz0, 1/rad; the sedan's rear has 24.5
+    pKy2: float = number(gt=0, default=2.0)  # load of the greatest cornering stiffness over Fz0
+    pKy6: float = number(ge=0, default=0.92)  # camber stiffness over Fz, 1/rad
+    pCx1: float = number(ge=1, le=2, default=1.65)  # longitudinal shape
+    pDx1: float = number(gt=0, default=1.15)  # longitudinal friction at Fz0
+    pDx2: float = number(default=-0.10)  # its change per dfz
+    pEx1: float = number(le=1, default=0.3)  # longitudinal curvature
+    pKx1: float = number(gt=0, default=21.5)  # longitudinal slip stiffness over Fz
+    trail: float = quantity("m", ge=0, default=0.03)  # pneumatic trail at Fz0 and no slip; in proportion to the load
+    trail_slip: float = number(gt=0, default=2.2)  # normalised slip at which half of the trail is left
 
     @model_validator(mode="after")
     def _friction_is_positive(self):

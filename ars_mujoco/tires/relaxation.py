@@ -12,19 +12,23 @@ longer damps it; and a limit, since a spring that a sliding wheel wound up beyon
 stopped car back by as much.
 """
 
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import Parameters, number, quantity
 
 
 class Relaxation(Parameters):
     """Relaxation lengths and the standstill behaviour; grade "judgement" but for the lateral length (the sedan's)."""
 
-    longitudinal: Quantity("m", gt=0) = 0.25
-    lateral: Quantity("m", gt=0) = 0.45
-    standstill_speed: Quantity("m/s", gt=0) = 2.0  # the damper acts below it
-    standstill_damping: Quantity("s", ge=0) = 0.02  # damping over stiffness of the carcass at standstill
-    peak_slip: Number(gt=0) = 2.4  # normalised slip of the force's peak, all that a tire at standstill can hold
-    sliding_speed: Quantity("m/s", gt=0) = 1.0  # the limit on slip doubles with each such speed: no limit when rolling
+    longitudinal: float = quantity("m", gt=0, default=0.25)
+    lateral: float = quantity("m", gt=0, default=0.45)
+    standstill_speed: float = quantity("m/s", gt=0, default=2.0)  # the damper acts below it
+    standstill_damping: float = quantity("s", ge=0, default=0.02)  # damping over stiffness of the carcass at standstill
+    peak_slip: float = number(
+        gt=0, default=2.4
+    )  # normalised slip of the force's peak, all that a tire at standstill can hold
+    sliding_speed: float = quantity(
+        "m/s", gt=0, default=1.0
+    )  # the limit on slip doubles with each such speed: no limit when rolling
 
 
 @kernel

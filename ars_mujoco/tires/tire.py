@@ -5,9 +5,9 @@ Signs are those of `magic_formula`; the frame of the patch is that of `contact`.
 
 import math
 
-from ars_mujoco.channels import Signal
-from ars_mujoco.kernel import kernel
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.channels import channel
+from ars_mujoco.schema.parameters import Parameters, number, quantity
 from ars_mujoco.tires import contact, magic_formula, relaxation
 from ars_mujoco.tires.magic_formula import MagicFormula
 from ars_mujoco.tires.relaxation import Relaxation
@@ -16,12 +16,14 @@ from ars_mujoco.tires.relaxation import Relaxation
 class Tire(Parameters):
     """A passenger-car tire, of the size 205/60R15."""
 
-    radius: Quantity("m", gt=0) = 0.3135  # unloaded
-    stiffness: Quantity("N/m", gt=0) = 225e3  # vertical
-    damping: Quantity("Ns/m", ge=0) = 150.0  # vertical
-    rolling_resistance: Number(ge=0) = 0.01  # its moment over load and radius; judgement
-    rolling_speed: Quantity("m/s", gt=0) = 0.1  # it fades below this speed: it stops a car, it does not hold one
-    mu: Number(gt=0) = 1.0  # friction of the road, 1 is that of the tire's measurement
+    radius: float = quantity("m", gt=0, default=0.3135)  # unloaded
+    stiffness: float = quantity("N/m", gt=0, default=225e3)  # vertical
+    damping: float = quantity("Ns/m", ge=0, default=150.0)  # vertical
+    rolling_resistance: float = number(ge=0, default=0.01)  # its moment over load and radius; judgement
+    rolling_speed: float = quantity(
+        "m/s", gt=0, default=0.1
+    )  # it fades below this speed: it stops a car, it does not hold one
+    mu: float = number(gt=0, default=1.0)  # friction of the road, 1 is that of the tire's measurement
     relaxation: Relaxation = Relaxation()
     magic: MagicFormula = MagicFormula()
 
@@ -29,20 +31,20 @@ class Tire(Parameters):
 class TireState(Parameters):
     """Deflection of the carcass at the patch."""
 
-    u: Quantity("m") = 0.0  # longitudinal
-    v: Quantity("m") = 0.0  # lateral
+    u: float = quantity("m", default=0.0)  # longitudinal
+    v: float = quantity("m", default=0.0)  # lateral
 
 
 class TireOutput(Parameters):
     """What one tire does, in the frame of its patch."""
 
-    vertical_force: Signal("N", "load on the tire, along the road's normal")
-    lateral_force: Signal("N", "force on the tire to its left")
-    longitudinal_force: Signal("N", "force on the tire forward")
-    slip_angle: Signal("rad", "slip angle of the patch, positive when it moves to the left")
-    slip_ratio: Signal("1", "longitudinal slip of the patch, positive when driving")
-    camber: Signal("rad", "camber, positive when the top leans to the right")
-    aligning_moment: Signal("Nm", "moment about the road's normal")
+    vertical_force: float = channel("N", "load on the tire, along the road's normal")
+    lateral_force: float = channel("N", "force on the tire to its left")
+    longitudinal_force: float = channel("N", "force on the tire forward")
+    slip_angle: float = channel("rad", "slip angle of the patch, positive when it moves to the left")
+    slip_ratio: float = channel("1", "longitudinal slip of the patch, positive when driving")
+    camber: float = channel("rad", "camber, positive when the top leans to the right")
+    aligning_moment: float = channel("Nm", "moment about the road's normal")
 
 
 @kernel

@@ -9,7 +9,7 @@ from functools import singledispatch
 
 import mujoco
 
-from ars_mujoco import library
+from ars_mujoco.schema import library
 from ars_mujoco.vehicle.bench import Bench
 from ars_mujoco.vehicle.roll_plane import RollPlane
 from ars_mujoco.vehicle.sedan import GRAVITY, Axle, Sedan

@@ -8,7 +8,7 @@ import numpy as np
 
 from ars_mujoco.control.reference_map import KNOTS
 from ars_mujoco.control.target import target_roll
-from ars_mujoco.errors import ArsError
+from ars_mujoco.schema.errors import ArsError
 from ars_mujoco.vehicle.roll_plane import RollPlane
 from ars_mujoco.vehicle.sedan import GRAVITY, Sedan
 from ars_mujoco.vehicle.statics import Equilibrium, Statics, bar_stiffness

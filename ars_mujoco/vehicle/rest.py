@@ -9,7 +9,7 @@ from collections.abc import Callable
 import mujoco
 import numpy as np
 
-from ars_mujoco.errors import ArsError
+from ars_mujoco.schema.errors import ArsError
 
 RESIDUAL = 1e-6  # largest acceleration left, m/s^2 and rad/s^2
 DISPLACEMENT = 1e-7  # of the finite differences, m and rad

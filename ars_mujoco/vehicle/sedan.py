@@ -8,7 +8,7 @@ import math
 
 from pydantic import ValidationInfo, field_validator, model_validator
 
-from ars_mujoco.parameters import Number, Parameters, Quantity
+from ars_mujoco.schema.parameters import Parameters, number, quantity
 from ars_mujoco.tires.tire import Tire
 
 GRAVITY = 9.81  # m/s^2, as in the models
@@ -17,11 +17,11 @@ GRAVITY = 9.81  # m/s^2, as in the models
 class Sprung(Parameters):
     """The body with all it carries."""
 
-    mass: Quantity("kg", gt=0)
-    roll_inertia: Quantity("kg*m^2", gt=0)  # these three about the sprung centre of gravity
-    pitch_inertia: Quantity("kg*m^2", gt=0)
-    yaw_inertia: Quantity("kg*m^2", gt=0)
-    cg_height: Quantity("m", gt=0)
+    mass: float = quantity("kg", gt=0)
+    roll_inertia: float = quantity("kg*m^2", gt=0)  # these three about the sprung centre of gravity
+    pitch_inertia: float = quantity("kg*m^2", gt=0)
+    yaw_inertia: float = quantity("kg*m^2", gt=0)
+    cg_height: float = quantity("m", gt=0)
 
     @model_validator(mode="after")
     def _is_a_possible_body(self):
@@ -39,26 +39,26 @@ class Sprung(Parameters):
 class Bar(Parameters):
     """Stabilizer bar of one axle, its arms pointing rearward and its drop links in the plane of the axle."""
 
-    arm: Quantity("m", ge=0.04)  # a shorter one turns too far as its drop link travels by that much
-    stiffness: Quantity("Nm/rad", gt=0)  # torsion of the split bar, both halves in series
-    passive_stiffness: Quantity("Nm/rad", ge=0)  # torsion of the conventional bar in its place
-    link_ratio: Number(gt=0, lt=1)  # travel of the drop link over travel of the wheel
-    link_length: Quantity("m", ge=0.02)  # a shorter one tilts too far as the arm's end swings
-    height: Quantity("m", gt=0)  # of the bar's axis above the road
+    arm: float = quantity("m", ge=0.04)  # a shorter one turns too far as its drop link travels by that much
+    stiffness: float = quantity("Nm/rad", gt=0)  # torsion of the split bar, both halves in series
+    passive_stiffness: float = quantity("Nm/rad", ge=0)  # torsion of the conventional bar in its place
+    link_ratio: float = number(gt=0, lt=1)  # travel of the drop link over travel of the wheel
+    link_length: float = quantity("m", ge=0.02)  # a shorter one tilts too far as the arm's end swings
+    height: float = quantity("m", gt=0)  # of the bar's axis above the road
 
 
 class Axle(Parameters):
     """One axle; rates and masses are per wheel."""
 
-    track: Quantity("m", gt=0)
-    roll_centre_height: Quantity("m")
+    track: float = quantity("m", gt=0)
+    roll_centre_height: float = quantity("m")
     # camber change over wheel travel, top inwards in jounce; more would be a swing arm that folds under the car
-    camber_gain: Quantity("rad/m", gt=0, le=3)
-    wheel_rate: Quantity("N/m", gt=0)
-    damping: Quantity("Ns/m", ge=0)
-    unsprung_mass: Quantity("kg", gt=0)  # the wheel included
-    wheel_mass: Quantity("kg", gt=0)  # the part that spins
-    spin_inertia: Quantity("kg*m^2", gt=0)
+    camber_gain: float = quantity("rad/m", gt=0, le=3)
+    wheel_rate: float = quantity("N/m", gt=0)
+    damping: float = quantity("Ns/m", ge=0)
+    unsprung_mass: float = quantity("kg", gt=0)  # the wheel included
+    wheel_mass: float = quantity("kg", gt=0)  # the part that spins
+    spin_inertia: float = quantity("kg*m^2", gt=0)
     bar: Bar
     tire: Tire
 
@@ -84,25 +84,25 @@ class Axle(Parameters):
 class Steering(Parameters):
     """Front steering: the compliance between the commanded and the real angle of a wheel, and the steer axis."""
 
-    stiffness: Quantity("Nm/rad", gt=0)  # per wheel, about the steer axis
-    damping: Quantity("Nms/rad", ge=0)
-    caster: Quantity("rad", ge=0, lt=math.pi / 4)  # rearward lean of the steer axis, through the wheel centre
-    knuckle_mass: Quantity("kg", gt=0)  # steered, without the wheel
+    stiffness: float = quantity("Nm/rad", gt=0)  # per wheel, about the steer axis
+    damping: float = quantity("Nms/rad", ge=0)
+    caster: float = quantity("rad", ge=0, lt=math.pi / 4)  # rearward lean of the steer axis, through the wheel centre
+    knuckle_mass: float = quantity("kg", gt=0)  # steered, without the wheel
 
 
 class SensorPlace(Parameters):
     """Where the lateral accelerometer sits on the centre line."""
 
-    ahead: Quantity("m")  # of the sprung centre of gravity
-    height: Quantity("m", ge=0)
+    ahead: float = quantity("m")  # of the sprung centre of gravity
+    height: float = quantity("m", ge=0)
 
 
 class Sedan(Parameters):
     """A car with two axles, steered in front."""
 
     sprung: Sprung
-    wheelbase: Quantity("m", gt=0)
-    cg_to_front_axle: Quantity("m", gt=0)  # of the sprung mass
+    wheelbase: float = quantity("m", gt=0)
+    cg_to_front_axle: float = quantity("m", gt=0)  # of the sprung mass
     front: Axle
     rear: Axle
     steering: Steering

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from ars_mujoco.errors import ArsError
+from ars_mujoco.schema.errors import ArsError
 from ars_mujoco.tires.tire import Tire
 from ars_mujoco.vehicle.roll_plane import RollPlane
 from ars_mujoco.vehicle.sedan import GRAVITY, Sedan

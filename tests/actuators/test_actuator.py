@@ -3,9 +3,9 @@
 import pytest
 
 from ars_mujoco.actuators.actuator import FullPumpControlled, PumpControlled
-from ars_mujoco.errors import InputError
-from ars_mujoco.inputs import read_inputs
-from ars_mujoco.library import shipped
+from ars_mujoco.schema.errors import InputError
+from ars_mujoco.schema.library import shipped
+from ars_mujoco.studies.inputs import read_inputs
 
 
 def actuator(name="pump_controlled", *settings):

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from ars_mujoco.analysis.loop import LOW_SIDE_HELD, Loop, loop_of
-from ars_mujoco.inputs import read_inputs
+from ars_mujoco.studies.inputs import read_inputs
 
 INPUTS = read_inputs("bench_s_curve", "pump_controlled_full")
 FRONT, REAR = (loop_of(INPUTS, axle) for axle in ("front", "rear"))

@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from ars_mujoco import cli
 from ars_mujoco.analysis import compensators, frequency_response, hydraulic_poles, margins, stable_region
 from ars_mujoco.analysis.analyze import ANALYSES, left_out, read_analyzed
 from ars_mujoco.analysis.loop import loop_of
 from ars_mujoco.analysis.parameter_box import TABLE_2, grid
-from ars_mujoco.errors import InputError
+from ars_mujoco.cli.app import app as cli
+from ars_mujoco.schema.errors import InputError
 
 
 @pytest.fixture

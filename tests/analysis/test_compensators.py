@@ -28,7 +28,7 @@ from ars_mujoco.analysis.compensators import (
 from ars_mujoco.analysis.linearization import actuator
 from ars_mujoco.analysis.loop import loop_of
 from ars_mujoco.analysis.margins import margins
-from ars_mujoco.inputs import read_inputs
+from ars_mujoco.studies.inputs import read_inputs
 
 ROBOT = loop_of(read_inputs("robot_step"))
 OWN = read_inputs("robot_step").controller.value

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ars_mujoco.analysis.fit_losses import Measurements, fit, fit_losses, read_measurements, remarks
-from ars_mujoco.errors import InputError
+from ars_mujoco.schema.errors import InputError
 
 RPM, BAR, V = 2 * np.pi / 60, 1e5, 1.8e-6 / (2 * np.pi)
 SPEED, PRESSURE = 6000 * RPM, 200 * BAR

@@ -8,6 +8,7 @@ import pytest
 from full_theory import FRONT, REAR, cylinder_matrix, held, plant_matrix
 from theory import LOOP
 
+from ars_mujoco.actuators.pump_controlled.pump_control import FULL, REDUCED, THIRD_ORDER
 from ars_mujoco.analysis.frequency_response import linear, measured
 from ars_mujoco.analysis.line_inertance import with_pipe
 from ars_mujoco.analysis.linearization import (
@@ -22,8 +23,7 @@ from ars_mujoco.analysis.loop import loop_of
 from ars_mujoco.analysis.margins import margins
 from ars_mujoco.analysis.steady_state import error
 from ars_mujoco.hydraulics.oil import viscosity_ratio
-from ars_mujoco.hydraulics.pump_control import FULL, REDUCED, THIRD_ORDER
-from ars_mujoco.inputs import read_inputs
+from ars_mujoco.studies.inputs import read_inputs
 
 PLANT_SIZES = np.array([1e5, 1e5, 1e5, 1e5, 1e-5, 1e-5, 1e5, 0.01, 1.0])
 CONTROL_SIZES = np.array([0.1, 10.0, 0.1, 1e5, 1e5, 0.1])

@@ -7,9 +7,9 @@ import pytest
 from full_theory import softness
 from theory import LOOP, pump_polynomial, same_poles
 
+from ars_mujoco.actuators.pump_controlled.pump_control import FULL
 from ars_mujoco.analysis import pump_control_stages
 from ars_mujoco.analysis.pump_control_stages import cylinder_frequency, with_cylinder_frequency
-from ars_mujoco.hydraulics.pump_control import FULL
 
 RESULT = pump_control_stages.compute(LOOP)
 

@@ -7,9 +7,9 @@ import pytest
 from records import blank
 from theory import CORNERS, LOOP, full_flow, leakage
 
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitEnergy, CircuitState, advance
 from ars_mujoco.analysis import steady_state
 from ars_mujoco.analysis.steady_state import error
-from ars_mujoco.hydraulics.reduced_circuit import CircuitEnergy, CircuitState, advance
 
 
 @pytest.mark.parametrize("loop", [LOOP, *CORNERS])

@@ -4,7 +4,7 @@ import numpy as np
 
 from ars_mujoco.analysis.loop import Loop, loop_of
 from ars_mujoco.analysis.parameter_box import TABLE_2, grid
-from ars_mujoco.inputs import read_inputs
+from ars_mujoco.studies.inputs import read_inputs
 
 LOOP = loop_of(read_inputs("bench_s_curve"))
 CORNERS = [LOOP.at(point) for point in grid(tuple(TABLE_2))]

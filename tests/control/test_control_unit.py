@@ -6,10 +6,10 @@ import pytest
 from bench import bench, drive
 from records import filled
 
-from ars_mujoco.callback import installed
+from ars_mujoco.bridge.callback import installed
+from ars_mujoco.bridge.world import view
 from ars_mujoco.control.control_unit import DELAY_LINE, SLOTS, ControlUnit, check_timing, delayed, samples_now
-from ars_mujoco.errors import InputError
-from ars_mujoco.world import view
+from ars_mujoco.schema.errors import InputError
 
 STEP = 1e-3
 

@@ -4,11 +4,11 @@ import math
 
 import pytest
 
-from ars_mujoco import library
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.control.target import target_roll
-from ars_mujoco.errors import InputError
-from ars_mujoco.files import override, read
+from ars_mujoco.schema import library
+from ars_mujoco.schema.document import override, read
+from ars_mujoco.schema.errors import InputError
 
 G = 9.80665
 

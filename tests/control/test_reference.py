@@ -5,8 +5,8 @@ import pytest
 from records import blank, filled
 
 from ars_mujoco.control.control_unit import ControlUnit
+from ars_mujoco.control.reference import PARAMETERS, STATE, own_reference
 from ars_mujoco.control.sensors import Sensors
-from ars_mujoco.rigs.reference import PARAMETERS, STATE, own_reference
 
 STEP = 1e-3
 

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ars_mujoco import library
-from ars_mujoco.cycle import Cycle
-from ars_mujoco.errors import InputError
 from ars_mujoco.excitation.excitation import ExcitationOf, peak, value
-from ars_mujoco.files import override, read
+from ars_mujoco.manoeuvres.cycle import Cycle
+from ars_mujoco.schema import library
+from ars_mujoco.schema.document import override, read
+from ars_mujoco.schema.errors import InputError
 
 FORMS = {
     "knots": {"join": "linear", "knots": [("0 s", "0 mm"), ("1 s", "-30 mm"), ("2 s", "10 mm")]},

@@ -7,9 +7,9 @@ from bench import circuit, one_sided
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ars_mujoco.errors import InputError
-from ars_mujoco.files import Document
 from ars_mujoco.hydraulics.line import ONE_SIDED, SERIES, Line, capacitance, capacitance_slope, middle_volume
+from ars_mujoco.schema.document import Document
+from ars_mujoco.schema.errors import InputError
 
 FRONT, REAR = circuit("front"), circuit("rear")
 LINES, SIDES = (FRONT.line, one_sided().line), ("series", "one_sided")

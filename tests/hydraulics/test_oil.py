@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from ars_mujoco.errors import InputError
-from ars_mujoco.files import Document
 from ars_mujoco.hydraulics.oil import Oil, compressibility, energy_density, fluid, viscosity_ratio
+from ars_mujoco.schema.document import Document
+from ars_mujoco.schema.errors import InputError
 
 BAR = 1e5
 WARM = record_of(oil())

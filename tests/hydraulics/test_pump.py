@@ -5,9 +5,9 @@ import pytest
 from bench import circuit
 
 from ars_mujoco.actuators.actuator import Actuator
-from ars_mujoco.errors import InputError
-from ars_mujoco.files import override, read
 from ars_mujoco.hydraulics.pump import extrapolation, flow_loss, ideal_flow, torque_loss
+from ars_mujoco.schema.document import override, read
+from ars_mujoco.schema.errors import InputError
 
 PUMP = circuit().pump
 BAR = 1e5

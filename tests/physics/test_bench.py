@@ -5,7 +5,7 @@ import pytest
 from bench import STIFFNESS, circuit, drive
 from radau import CORNERS, LOSSES, S_CURVE, STEP_1_DEG, STEP_10_DEG, Command, VerificationSet, derivative, solve, step
 
-from ars_mujoco.hydraulics.reduced_circuit import rates
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import rates
 
 NOMINAL = VerificationSet()
 REAR = VerificationSet(V_L=4.7e-4, C_0=9.8e-14)

@@ -10,9 +10,9 @@ from radau import ATOL, State, VerificationSet, derivative, powers
 from records import blank
 from scipy.integrate import solve_ivp
 
-from ars_mujoco.errors import InputError
-from ars_mujoco.hydraulics.reduced_circuit import CircuitEnergy, CircuitState, advance
-from ars_mujoco.hydraulics.substeps import substeps
+from ars_mujoco.actuators.pump_controlled.substeps import substeps
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitEnergy, CircuitState, advance
+from ars_mujoco.schema.errors import InputError
 
 GAIN = 60.0  # 1/rad
 COMMAND = (2e-3, 0.04, -0.3)  # rad, rad/s, rad/s^2: at no time over 0.2 deg, where no limit is met

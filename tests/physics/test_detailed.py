@@ -10,7 +10,7 @@ from detailed import ACTUATORS, VARIANTS, drive
 from radau import step
 from radau_full import NOMINAL, solve
 
-from ars_mujoco.simulation import simulate
+from ars_mujoco.simulation.simulation import simulate
 
 # the reference's nominal plant with the shipped line of 3.34 m, oil at 50 degC, check and fail-safe valves
 SHIPPED = replace(

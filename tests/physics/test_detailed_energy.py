@@ -12,11 +12,11 @@ from hypothesis import settings as examples
 from hypothesis import strategies as st
 from test_energy import COMMANDS, ENDS, EVEN, moved
 
-from ars_mujoco import world as worlds
-from ars_mujoco.callback import installed
-from ars_mujoco.hydraulics.detailed_circuit import FULL_PLANT
-from ars_mujoco.hydraulics.pump_control import FULL
-from ars_mujoco.simulation import simulate
+from ars_mujoco.actuators.pump_controlled.full_circuit import FULL_PLANT
+from ars_mujoco.actuators.pump_controlled.pump_control import FULL
+from ars_mujoco.bridge import world as worlds
+from ars_mujoco.bridge.callback import installed
+from ars_mujoco.simulation.simulation import simulate
 
 STORED = ("oil", "bar", "inertia", "oil_motion")
 LOSSES = ("pump_torque_loss", "pump_leakage", "motor_leakage", "relief", "friction", "line", "check", "bypass",

@@ -8,7 +8,7 @@ import shipped
 from bench import STIFFNESS, circuit, drive
 from test_energy import astray
 
-from ars_mujoco.metrics import G
+from ars_mujoco.metrics.metric import G
 
 RPM = math.pi / 30
 H = 1e-3

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 import shipped
 
-from ars_mujoco.callback import installed
-from ars_mujoco.errors import InputError, SimulationError
-from ars_mujoco.inputs import read_inputs
-from ars_mujoco.metrics import G
-from ars_mujoco.simulation import simulate
-from ars_mujoco.study import simulation_of
+from ars_mujoco.bridge.callback import installed
+from ars_mujoco.metrics.metric import G
+from ars_mujoco.schema.errors import InputError, SimulationError
+from ars_mujoco.simulation.simulation import simulate
+from ars_mujoco.studies.inputs import read_inputs
+from ars_mujoco.studies.study import simulation_of
 
 S_CURVE, STEP_STEER, CIRCLE, BUMP = "s_curve_120kmh", "step_steer_iso7401", "steady_circle_iso4138", "single_wheel_bump"
 ROLL_PLANE = "roll_plane_step"

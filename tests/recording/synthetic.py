@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 
 import ars_mujoco
-from ars_mujoco.channels import Channel
 from ars_mujoco.recording.recording import Event, Recording, scene_of
+from ars_mujoco.schema.channels import Channel
 
 SEDAN = Path(str(files(ars_mujoco))).parent / "mjcf" / "sedan" / "sedan.xml"
 SPEED = 120 / 3.6

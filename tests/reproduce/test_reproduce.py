@@ -6,10 +6,10 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
-from ars_mujoco import cli
-from ars_mujoco.errors import InputError
+from ars_mujoco.cli.app import app as cli
 from ars_mujoco.reproduce import reproduce as command
 from ars_mujoco.reproduce.claim import Kind
+from ars_mujoco.schema.errors import InputError
 
 
 def test_it_writes_a_page_and_all_numbers(written, claims):

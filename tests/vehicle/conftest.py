@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from ars_mujoco.files import read
+from ars_mujoco.schema.document import read
 from ars_mujoco.vehicle.bench import Bench
 from ars_mujoco.vehicle.model import build
 from ars_mujoco.vehicle.rest import solve

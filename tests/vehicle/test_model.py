@@ -9,7 +9,7 @@ import pytest
 import yaml
 from scipy.optimize import brentq
 
-from ars_mujoco import library
+from ars_mujoco.schema import library
 from ars_mujoco.vehicle.model import build, specify
 
 RIGS = ("sedan", "roll_plane", "bench")

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from ars_mujoco.errors import ArsError
+from ars_mujoco.schema.errors import ArsError
 from ars_mujoco.vehicle import rest
 
 

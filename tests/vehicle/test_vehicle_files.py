@@ -2,8 +2,8 @@
 
 import pytest
 
-from ars_mujoco.errors import InputError
-from ars_mujoco.inputs import read_inputs
+from ars_mujoco.schema.errors import InputError
+from ars_mujoco.studies.inputs import read_inputs
 from ars_mujoco.vehicle.model import build
 
 CYCLE = {"sedan": "s_curve_120kmh", "roll_plane": "roll_plane_step"}

@@ -1,0 +1,105 @@
+"""Substeps: how many Runge-Kutta steps of the circuit a physics step needs, from the eigenvalues of its equations."""
+
+from functools import partial
+
+import numpy as np
+
+from ars_mujoco.actuators.pump_controlled.full_circuit import detailed_rates, start_plant
+from ars_mujoco.actuators.pump_controlled.full_plant import (
+    ANGLE,
+    BYPASS,
+    FAIL_SAFE,
+    FLOW_A,
+    GALLERY,
+    POWERS,
+    RATE,
+    STATES,
+    A,
+)
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import rates
+from ars_mujoco.kernels.kernel import entry
+from ars_mujoco.schema.errors import InputError
+
+FEWEST, MOST = 4, 200
+MARGIN = 0.92  # of the stable step: the friction's own eigenvalue moves a little as the bar loads the motor
+RESOLVED = 1.0  # rad a substep, of the fastest oscillation
+NUDGES = np.array([1e-4, 1e-2, 1e-4, 1e2, 1e-6, 1e-6])  # of the reduced circuit's six states, for the slopes
+PLANT_NUDGES = np.array([1e2] * FLOW_A + [1e-9] * (GALLERY - FLOW_A) + [1e2, 1e-6, 1e-6, 1e-4, 1e-4])
+
+
+def substeps(circuit, bar_stiffness: float, step: float) -> int:
+    """The fewest substeps of a physics step (s) in which all that decays does decay, and oscillations are resolved.
+
+    Looked at where the reduced circuit with its pump control is stiffest: at rest (the friction's rounding), moving,
+    over the relief valve's pressure and past the mechanical stop. Raises InputError where more than MOST are needed.
+    """
+    states = np.zeros((4, 6))
+    states[1, 5] = 1.0  # rad/s
+    states[2, 3] = 1.1 * circuit.relief_valve.pressure
+    states[3, 4] = 1.01 * circuit.motor.stop_angle
+    return _fewest([_slopes(partial(_rates, circuit, bar_stiffness), state, NUDGES) for state in states], step)
+
+
+def detailed_substeps(axle, step: float, bypassed: bool) -> int:
+    """The same for the plant of a detailed circuit, an `axle.Axle` record; its pump control takes implicit steps.
+
+    Looked at also with open check valves, with a shut fail-safe valve and, where it will be `bypassed`, with an open
+    bypass valve.
+    """
+    states = np.zeros((6, STATES))
+    for state in states:
+        start_plant(axle, state)
+    states[:, BYPASS] = bypassed
+    states[1, RATE] = 1.0  # rad/s
+    states[2, A] += 1.1 * axle.circuit.relief_valve.pressure
+    states[3, ANGLE] = 1.01 * axle.circuit.motor.stop_angle
+    states[4, GALLERY] *= 2.0
+    states[5, FAIL_SAFE] = 0.0
+    return _fewest([_slopes(partial(_plant_rates, axle), state, PLANT_NUDGES) for state in states], step)
+
+
+def _fewest(slopes: list[np.ndarray], step: float) -> int:
+    """The fewest substeps for all of these matrices (n, n) of slopes (1/s)."""
+    eigenvalues = np.concatenate([np.linalg.eigvals(each) for each in slopes])
+    decaying = eigenvalues[eigenvalues.real <= 0.0] * step
+    for count in range(FEWEST, MOST + 1):
+        z = decaying / (MARGIN * count)
+        if np.abs(_amplification(z)).max() <= 1.0 and np.abs(z.imag).max() <= RESOLVED:
+            return count
+    fastest = np.abs(eigenvalues).max()
+    raise InputError(
+        f"the circuit's fastest eigenvalue, {fastest:.2g} 1/s, needs more than {MOST} substeps of {1e3 * step:g} ms; "
+        "a capacitance, an inertia or a friction speed is too small, or a rate or gain too large"
+    )
+
+
+def _amplification(z: np.ndarray) -> np.ndarray:
+    """Growth of a mode over one classical Runge-Kutta step, z = eigenvalue times step."""
+    return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))
+
+
+def _slopes(rates, state: np.ndarray, nudges: np.ndarray) -> np.ndarray:
+    """Derivatives of the states' rates by the states, by central differences."""
+    columns = [
+        np.subtract(rates(state + nudge), rates(state - nudge)) / (2.0 * nudge.sum()) for nudge in np.diag(nudges)
+    ]
+    return np.column_stack(columns)
+
+
+@entry
+def _rates(circuit, bar_stiffness, state):
+    six = (state[0], state[1], state[2], state[3], state[4], state[5])
+    derivatives, _ = rates(circuit, bar_stiffness, six, 0.0, 0.0)
+    return derivatives
+
+
+def _plant_rates(axle, state: np.ndarray) -> np.ndarray:
+    """Derivatives of a detailed circuit's plant at rest of its pump control."""
+    rates = np.zeros(STATES)
+    _fill_plant_rates(axle, state, rates, np.zeros(POWERS))
+    return rates
+
+
+@entry
+def _fill_plant_rates(axle, state, rates, powers):
+    detailed_rates(axle, state, rates, powers, 0.0, 0.0, (state[BYPASS], state[FAIL_SAFE]))

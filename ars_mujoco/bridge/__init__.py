@@ -1,0 +1,1 @@
+"""Bridge: mjData and back."""

@@ -1,0 +1,1 @@
+"""Driving: who steers, and where to."""

@@ -1,0 +1,1 @@
+"""Kernels: compiled arithmetic on floats, without MuJoCo."""

@@ -1,0 +1,1 @@
+"""Machines: what turns and what gears down."""

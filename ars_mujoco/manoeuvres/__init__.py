@@ -1,0 +1,1 @@
+"""Manoeuvres: what is driven, for how long, and what is expected of it."""

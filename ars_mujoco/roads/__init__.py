@@ -1,0 +1,1 @@
+"""Roads: what the wheels roll on."""

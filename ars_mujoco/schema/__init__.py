@@ -1,0 +1,1 @@
+"""Schema: how things are declared, written by users, and read."""

@@ -1,0 +1,61 @@
+"""Library: finds what a user names, shipped things by their name and own files by their path.
+
+`cycles/` and `mjcf/` stand beside the package in a checkout and inside it once installed.
+"""
+
+import re
+from glob import escape
+from itertools import takewhile
+from pathlib import Path
+
+from ars_mujoco.schema.errors import InputError
+from ars_mujoco.schema.suggestion import did_you_mean
+
+PACKAGE = Path(__file__).parents[1]
+
+# kind -> (folder, pattern of the shipped files in it); a thing's name is its file's stem
+SHIPPED = {
+    "cycle": ("cycles", "*.yaml"),
+    "actuator": ("actuators", "*.yaml"),
+    "controller": ("control", "*.yaml"),
+    "vehicle": ("mjcf", "*/*.yaml"),
+}
+
+
+def folder(name: str) -> Path:
+    """The folder `name` inside the package, or beside it in a checkout."""
+    inside = PACKAGE / name
+    return inside if inside.is_dir() else PACKAGE.parent / name
+
+
+def shipped(kind: str) -> dict[str, Path]:
+    """The shipped files of `kind` by name, in alphabetical order."""
+    where, pattern = SHIPPED[kind]
+    return {path.stem: path for path in sorted(folder(where).glob(pattern), key=lambda path: path.stem)}
+
+
+def description(path: Path) -> str:
+    """What a file says of itself: its title, or the first sentence of the comment that it begins with."""
+    first, *rest = path.read_text().splitlines() or [""]
+    if not first.startswith("#"):
+        return first.removeprefix("title:").strip()
+    comment = takewhile(lambda line: line.startswith("#"), [first, *rest])
+    text = " ".join(line.lstrip("# ") for line in comment)
+    return re.split(r"\. (?=[A-Z])", text)[0].rstrip(".")
+
+
+def find(kind: str, name_or_path: str | Path, beside: Path | None = None) -> Path:
+    """The file of a shipped thing's name, or of a path; a relative path starts at the folder `beside`, if given.
+
+    Raises InputError with the nearest and all shipped names where there is no such thing.
+    """
+    known, text = shipped(kind), str(name_or_path)
+    if text in known:
+        return known[text]
+    path = (beside or Path()) / name_or_path
+    if path.is_file():
+        return path
+    beside_it = path.parent.glob("*" + escape(path.suffix)) if path.suffix else []
+    files = [str(path.with_name(each.name)) for each in beside_it if each.is_file()]
+    near = did_you_mean(text, files) or did_you_mean(path.stem, known)
+    raise InputError(f"no {kind} '{text}'{near or ';'} shipped: {', '.join(known)}")

@@ -1,0 +1,91 @@
+"""Parameters: declared once, with symbol, unit, limits and meaning on one line, read from files that carry units.
+
+A subclass of `Parameters` is at once the schema of a YAML block, the documentation of its fields, and the layout of
+the record that the compiled kernels read (`record_dtype`), so that no value is named twice.
+"""
+
+from typing import Any, ClassVar, get_args
+
+import numpy as np
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainSerializer, ValidationInfo, model_validator
+from pydantic_core import PydanticUndefined
+
+from ars_mujoco.schema.suggestion import did_you_mean
+from ars_mujoco.schema.units import Unit
+
+
+def quantity(unit: str, *, default: Any = PydanticUndefined, validate_default: bool = False, **limits: float) -> Any:
+    """A field in `unit` (SI inside); `limits` are gt, ge, lt, le in SI. NaN and infinity are refused.
+
+    `default` is SI; with `validate_default` the schema's own validators judge it too.
+    """
+    field = Field(default, validate_default=validate_default or None)
+    field.metadata.append(Unit(unit, **limits))
+    return field
+
+
+def number(*, default: Any = PydanticUndefined, **limits: float) -> Any:
+    """A dimensionless field: a bare number in the file, or a percentage."""
+    return quantity("1", default=default, **limits)
+
+
+def choice(*names: str, default: Any = PydanticUndefined) -> Any:
+    """A field that is one of `names` in the file, and the place of that name, a float, in the record."""
+
+    def place(value: object) -> float:
+        if value not in names:
+            raise ValueError(f"unknown{did_you_mean(str(value), names)}; allowed: {', '.join(names)}")
+        return float(names.index(value))
+
+    field = Field(default)
+    field.metadata += [BeforeValidator(place), PlainSerializer(lambda value: names[int(value)], when_used="json")]
+    return field
+
+
+class Parameters(BaseModel):
+    """A block of parameters: unknown keys are errors, values are SI, instances do not change.
+
+    Validated with a dict as context, each block notes there under its id which schema read it, so that an error about
+    an unknown key can list the valid ones.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    RECORD: ClassVar[np.dtype | None] = None  # of a block whose record is not its fields, but what these attributes are
+
+    @model_validator(mode="before")
+    @classmethod
+    def _note_schema(cls, block: Any, info: ValidationInfo) -> Any:
+        if info.context is not None:
+            info.context[id(block)] = cls
+        return block
+
+
+def record_dtype(model: type[Parameters]) -> np.dtype:
+    """The numpy record of `model`: a float64 for each float field, nested blocks as nested records, in field order.
+
+    Blocks that may be absent have their room too; a block with a RECORD of its own has that.
+    """
+    if model.RECORD:
+        return model.RECORD
+    kept = {name: _kept(field.annotation) for name, field in model.model_fields.items()}
+    return np.dtype(
+        [(name, np.float64 if each is float else record_dtype(each)) for name, each in kept.items() if each]
+    )
+
+
+def fill(record: Any, parameters: Parameters) -> None:
+    """Write `parameters` into a numpy record of `record_dtype(type(parameters))`; an absent block is all zeros."""
+    for name in record.dtype.names:
+        value = getattr(parameters, name)
+        if isinstance(value, Parameters):
+            fill(record[name], value)
+        else:
+            record[name] = 0.0 if value is None else value
+
+
+def _kept(annotation: Any) -> type | None:
+    """What a record keeps of a field: a float or a block, the latter also where it may be absent; else None."""
+    options = [each for each in get_args(annotation) or [annotation] if each is not type(None)]
+    (only,) = options if len(options) == 1 else (None,)
+    return only if only is float or isinstance(only, type) and issubclass(only, Parameters) else None

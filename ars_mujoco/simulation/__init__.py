@@ -1,0 +1,1 @@
+"""Simulation: the loop, its samples and its events."""

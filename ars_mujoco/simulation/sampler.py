@@ -1,0 +1,51 @@
+"""Sampler: steps the simulation and takes its samples, the channels at every step and the poses at every frame."""
+
+import mujoco
+import numpy as np
+
+from ars_mujoco.bridge.native_loop import advance
+from ars_mujoco.recording.recording import Recording
+
+FRAME = 0.01  # s between two recorded poses
+
+
+class Sampler:
+    """Advances `data` chunk by chunk; `empty` gives the channels and bodies that are sampled.
+
+    A sample belongs to the time at which its step begins, so the last sample of a run is taken without a step.
+    """
+
+    def __init__(self, rig, model: mujoco.MjModel, data: mujoco.MjData, empty: Recording, in_python: bool = False):
+        self.model, self.data, self.empty, self.in_python = model, data, empty, in_python
+        self.stride = max(round(FRAME / model.opt.timestep), 1)  # steps a frame
+        self.out_slot = rig.WORLD.fields["out"][1] // 8  # where userdata holds the channels
+        self.taken = 0  # samples so far
+
+    def steps(self, count: int) -> Recording:
+        """The samples of the next `count` steps; fewer where the world's status stopped the run."""
+        times, values, poses = self._room(count)
+        made = advance(
+            self.model, self.data, times, values, poses, self.stride, self.out_slot, self.taken, self.in_python
+        )
+        return self._chunk(times[:made], values[:made], poses)
+
+    def last(self) -> Recording:
+        """The sample of the time that the last step has led to."""
+        times, values, poses = self._room(1)
+        mujoco.mj_forward(self.model, self.data)
+        times[0], values[0] = self.data.time, self.data.userdata[self.out_slot :][: values.shape[1]]
+        poses[:] = np.hstack([self.data.xpos, self.data.xquat])
+        return self._chunk(times, values, poses)
+
+    def _room(self, count: int):
+        """Arrays for `count` samples: times, values, and the poses of the frames among them."""
+        frames = len(range(-self.taken % self.stride, count, self.stride))
+        return np.empty(count), np.empty((count, len(self.empty.channels))), np.empty((frames, self.model.nbody, 7))
+
+    def _chunk(self, times, values, poses) -> Recording:
+        framed = times[-self.taken % self.stride :: self.stride]
+        self.taken += len(times)
+        return Recording(
+            self.empty.title, self.empty.channels, self.empty.bodies, self.empty.scene, self.empty.inputs,
+            time=times, values=values, pose_time=framed, poses=poses[: len(framed)],
+        )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Studies: from users' files to runs that are measured against each other."""

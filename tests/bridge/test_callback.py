@@ -1,0 +1,357 @@
+"""The callback's contract: once a step, everything in mjData, and a run that goes on bit for bit from any restore."""
+
+import subprocess
+import sys
+from copy import copy
+
+import mujoco
+import numpy as np
+import pytest
+import shipped
+from mujoco.batch import Batch
+
+from ars_mujoco.bridge import world as worlds
+from ars_mujoco.bridge.callback import installed
+from ars_mujoco.rigs import bench
+from ars_mujoco.schema.errors import ArsError, SimulationError
+from ars_mujoco.simulation.simulation import check, empty_recording
+
+S_CURVE, ROLL_PLANE, BENCH = "s_curve_120kmh", "roll_plane_step", "bench_s_curve"
+MIDDLE = 2.5  # s into a cycle, where everything moves
+ON = 300  # steps driven on from there
+CASES = [
+    (S_CURVE, ()),
+    (ROLL_PLANE, ()),
+    (BENCH, ()),
+    (S_CURVE, ("actuator.drive.kind=engine",)),
+    (BENCH, ("actuator.drive.kind=electric",)),
+    (ROLL_PLANE, ("actuator=pump_controlled_full", "actuator.pump_control=full", "actuator.rear.pipe.lumps=4")),
+]
+INTEGRATORS = ("mjINT_EULER", "mjINT_IMPLICIT", "mjINT_IMPLICITFAST")
+
+
+@pytest.fixture(scope="session")
+def sedan():
+    return shipped.simulation(S_CURVE)
+
+
+@pytest.fixture(scope="session")
+def middle(sedan):
+    """The state of the sedan in the middle of the S-curve."""
+    return shipped.state_of(sedan.model, shipped.driven(sedan, MIDDLE))
+
+
+@pytest.fixture(scope="session")
+def end(sedan, middle):
+    """The state ON steps later, driven without a break."""
+    return drive_on(sedan, shipped.restored(sedan.model, middle))
+
+
+def drive_on(simulation, data, steps: int = ON) -> np.ndarray:
+    with installed(simulation.rig, simulation.model, data):
+        mujoco.mj_step(simulation.model, data, steps)
+    return shipped.state_of(simulation.model, data)
+
+
+def set_front_pump_speed(simulation, data, speed: float) -> None:
+    world_of(simulation, data).parameters.stabilizers.front.circuit.pump.speed = speed
+
+
+def world_of(simulation, data):
+    return worlds.view(data, simulation.rig.WORLD)
+
+
+# ---- installing
+
+
+def test_installing_lasts_as_long_as_the_block_and_restores_what_was_there(sedan):
+    def theirs(model, data):
+        """A callback of somebody else."""
+
+    data = sedan.start()
+    mujoco.set_mjcb_control(theirs)
+    try:
+        with installed(sedan.rig, sedan.model, data):
+            assert mujoco.get_mjcb_control() is not theirs
+        assert mujoco.get_mjcb_control() is theirs
+        with pytest.raises(ZeroDivisionError), installed(sedan.rig, sedan.model, data):
+            raise ZeroDivisionError
+        assert mujoco.get_mjcb_control() is theirs
+    finally:
+        mujoco.set_mjcb_control(None)
+
+
+def test_runge_kutta_is_refused_and_the_error_says_why(sedan):
+    model = copy(sedan.model)
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    with (
+        pytest.raises(ArsError, match=r"RK4 is refused: it evaluates forces four times a step"),
+        installed(sedan.rig, model, mujoco.MjData(model)),
+    ):
+        pass
+    assert mujoco.get_mjcb_control() is None
+
+
+def test_a_model_of_another_rig_is_refused(sedan):
+    with pytest.raises(ArsError, match="not built for the rig 'bench'"), installed(bench, sedan.model, sedan.start()):
+        pass
+
+
+def test_a_model_that_has_room_for_the_world_but_does_not_carry_it_is_refused():
+    spec = mujoco.MjSpec()
+    spec.nuserdata = bench.WORLD.itemsize // 8
+    model = spec.compile()
+    with pytest.raises(ArsError, match="not built for the rig"), installed(bench, model, mujoco.MjData(model)):
+        pass
+
+
+# ---- once a step
+
+
+@pytest.mark.parametrize(("cycle", "settings"), CASES)
+def test_a_second_mj_forward_changes_nothing(cycle, settings):
+    simulation = shipped.simulation(cycle, None, *settings)
+    data = shipped.driven(simulation, 0.54)
+    outputs = ("userdata", "xfrc_applied", "qfrc_applied", "ctrl", "mocap_pos")
+    with installed(simulation.rig, simulation.model, data):
+        mujoco.mj_forward(simulation.model, data)
+        once = {name: getattr(data, name).copy() for name in outputs}
+        mujoco.mj_forward(simulation.model, data)
+    assert world_of(simulation, data).out.front.bar.torque != 0
+    for name in outputs:
+        np.testing.assert_array_equal(getattr(data, name), once[name], err_msg=name)
+
+
+def test_looking_at_a_run_between_its_steps_does_not_change_it(sedan, middle, end):
+    data = shipped.restored(sedan.model, middle)
+    with installed(sedan.rig, sedan.model, data):
+        for step in range(ON):
+            if step % 7 == 0:
+                solved = data.qacc_warmstart.copy()  # where the solver starts is its memory, not the callback's
+                mujoco.mj_forward(sedan.model, data)
+                data.qacc_warmstart = solved
+            mujoco.mj_step(sedan.model, data)
+    np.testing.assert_array_equal(shipped.state_of(sedan.model, data), end)
+
+
+def test_finite_differences_about_a_state_do_not_disturb_the_run(sedan, middle, end):
+    data, size = shipped.restored(sedan.model, middle), 2 * sedan.model.nv
+    with installed(sedan.rig, sedan.model, data):
+        mujoco.mjd_transitionFD(sedan.model, data, 1e-6, False, np.zeros((size, size)), None, None, None)
+    data.qacc_warmstart = shipped.restored(sedan.model, middle).qacc_warmstart
+    np.testing.assert_array_equal(drive_on(sedan, data), end)
+
+
+@pytest.mark.parametrize("to", [0.0, 1.0, MIDDLE - 0.001, MIDDLE + 0.002, 10.0])
+def test_a_jump_in_time_is_recorded(to, sedan, middle):
+    data = shipped.restored(sedan.model, middle)
+    with installed(sedan.rig, sedan.model, data):
+        mujoco.mj_forward(sedan.model, data)
+        assert world_of(sedan, data).header.status == worlds.RUNNING
+        data.time = to
+        mujoco.mj_forward(sedan.model, data)
+    header = world_of(sedan, data).header
+    assert header.status == worlds.TIME_JUMP
+    assert header.status_time == to
+
+
+@pytest.mark.parametrize("field", ["qpos", "qvel"])
+def test_whatever_coordinate_is_not_finite_is_recorded_at_once(field, sedan, middle, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes what it warns of into the current folder
+    for index in range(getattr(sedan.start(), field).size):
+        data = shipped.restored(sedan.model, middle)
+        getattr(data, field)[index] = np.nan
+        with installed(sedan.rig, sedan.model, data):
+            mujoco.mj_step(sedan.model, data)
+            mujoco.mj_step(sedan.model, data)
+        header = world_of(sedan, data).header
+        assert header.status == worlds.NOT_FINITE, f"{field}[{index}]"
+        assert header.status_time == pytest.approx(MIDDLE, abs=0.0011)  # at the latest a step later
+
+
+# ---- everything in mjData
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_a_run_restored_in_its_middle_ends_identical(integrator, sedan):
+    own, _ = shipped.own_copy(sedan)
+    own.model.opt.integrator = getattr(mujoco.mjtIntegrator, integrator)
+    data = shipped.driven(own, MIDDLE)
+    state = shipped.state_of(own.model, data)
+    np.testing.assert_array_equal(drive_on(own, shipped.restored(own.model, state)), drive_on(own, data))
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        ("controller.unit.sample_time=5 ms",),
+        ("controller.unit.sample_time=0 s", "controller.unit.delay=3 ms"),
+        ("controller.reference.trim.rate=1 1/s",),
+        ("actuator.drive.kind=engine",),
+        ("actuator.drive.kind=electric",),
+    ],
+)
+def test_so_does_a_run_with_another_control_unit_or_drive(settings):
+    simulation = shipped.simulation(S_CURVE, None, *settings)
+    data = shipped.driven(simulation, 0.902)  # between two samples of 5 ms
+    state = shipped.state_of(simulation.model, data)
+    np.testing.assert_array_equal(
+        drive_on(simulation, shipped.restored(simulation.model, state)), drive_on(simulation, data)
+    )
+
+
+def test_nothing_outside_the_state_matters(sedan, middle, end):
+    derived = """qacc xpos xquat xmat xipos ximat xanchor xaxis site_xpos site_xmat geom_xpos subtree_com cvel cacc
+        cfrc_int qfrc_bias qfrc_passive qfrc_actuator qfrc_constraint qfrc_smooth qacc_smooth actuator_force
+        actuator_length actuator_velocity ten_length ten_velocity sensordata""".split()
+    data, random = shipped.restored(sedan.model, middle), np.random.default_rng(1)
+    with installed(sedan.rig, sedan.model, data):
+        for _ in range(ON):
+            for name in derived:
+                field = getattr(data, name)
+                field[:] = random.normal(scale=1e3, size=field.shape)
+            mujoco.mj_step(sedan.model, data)
+    np.testing.assert_array_equal(shipped.state_of(sedan.model, data), end)
+
+
+def test_after_a_reset_the_cycle_begins_anew(sedan, middle):
+    data = shipped.restored(sedan.model, middle)
+    mujoco.mj_resetDataKeyframe(sedan.model, data, 0)
+    assert not data.userdata.any()
+    np.testing.assert_array_equal(drive_on(sedan, data), drive_on(sedan, sedan.start()))
+
+
+def test_two_cars_in_one_process_do_not_disturb_each_other(sedan, middle, end):
+    other = shipped.simulation(S_CURVE, "passive")
+    alone = drive_on(other, shipped.driven(other, 1.0))
+    active, passive = shipped.restored(sedan.model, middle), shipped.driven(other, 1.0)
+    with installed(sedan.rig, sedan.model, active):
+        for _ in range(ON):
+            mujoco.mj_step(sedan.model, active)
+            mujoco.mj_step(other.model, passive)
+    np.testing.assert_array_equal(shipped.state_of(sedan.model, active), end)
+    np.testing.assert_array_equal(shipped.state_of(other.model, passive), alone)
+
+
+# ---- batches
+
+SPEEDS = (314.159, 157.08, 628.318)  # rad/s, of each row's front pump
+
+
+@pytest.fixture(scope="session")
+def rows(sedan, middle):
+    """Ends of three cars that differ in their front pump's speed, driven one by one."""
+    ends = []
+    for speed in SPEEDS:
+        data = shipped.restored(sedan.model, middle)
+        set_front_pump_speed(sedan, data, speed)
+        ends.append(drive_on(sedan, data))
+    return ends
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_batch_is_bit_identical_to_a_loop_and_each_row_has_its_own_parameters(threads, sedan, middle, rows):
+    batch = Batch(sedan.model, nsim=len(SPEEDS), nthread=threads)
+    for row, speed in enumerate(SPEEDS):
+        data = shipped.restored(sedan.model, middle)
+        set_front_pump_speed(sedan, data, speed)
+        batch.state[row] = shipped.state_of(sedan.model, data)
+    with installed(sedan.rig, sedan.model, sedan.start()):
+        for _ in range(ON):
+            batch.step()
+    for row, alone in enumerate(rows):
+        np.testing.assert_array_equal(batch.state[row], alone)
+    assert len({alone.tobytes() for alone in rows}) == len(SPEEDS)
+
+
+def test_a_batch_that_is_reset_begins_anew(sedan):
+    batch = Batch(sedan.model, nsim=2, nthread=1)
+    with installed(sedan.rig, sedan.model, sedan.start()):
+        for _ in range(5):
+            batch.step()
+        batch.reset()
+        for _ in range(5):
+            batch.step()
+    once = mujoco.MjData(sedan.model)
+    once_end = drive_on(sedan, once, 5)
+    np.testing.assert_array_equal(batch.state[0], once_end)
+
+
+# ---- the interpreted twin
+
+TWIN = """
+import sys
+from importlib import import_module
+import mujoco, numpy as np
+from ars_mujoco.bridge.callback import installed
+from ars_mujoco.kernels.kernel import interpreted
+assert interpreted
+folder, name, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
+rig = import_module(f"ars_mujoco.rigs.{name}")
+model = mujoco.MjModel.from_binary_path(f"{folder}/model.mjb")
+data = mujoco.MjData(model)
+mujoco.mj_setState(model, data, np.load(f"{folder}/state.npy"), mujoco.mjtState.mjSTATE_INTEGRATION)
+worlds = []
+with installed(rig, model, data):
+    for _ in range(steps):
+        mujoco.mj_step(model, data)
+        worlds.append(data.userdata.copy())
+np.save(f"{folder}/interpreted.npy", worlds)
+"""
+
+
+def twins_apart(simulation, data, steps, folder, monkeypatch) -> float:
+    """The largest difference in the world, relative to each number's peak, of `steps` compiled steps from `data` and of
+    the same interpreted.
+    """
+    mujoco.mj_saveModel(simulation.model, str(folder / "model.mjb"))
+    np.save(folder / "state.npy", shipped.state_of(simulation.model, data))
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
+    subprocess.run([sys.executable, "-c", TWIN, str(folder), simulation.rig.NAME, str(steps)], check=True)
+    compiled = []
+    with installed(simulation.rig, simulation.model, data):
+        for _ in range(steps):
+            mujoco.mj_step(simulation.model, data)
+            compiled.append(data.userdata.copy())
+    compiled, interpreted = np.array(compiled), np.load(folder / "interpreted.npy")
+    apart = np.abs(interpreted - compiled).max(axis=0) / np.maximum(np.abs(compiled).max(axis=0), 1e-300)
+    print(f"{apart.max():.1e} apart, relative to each number's peak")
+    return apart.max()
+
+
+@pytest.mark.parametrize(("cycle", "settings"), CASES)
+def test_the_interpreted_twin_agrees_to_1e_12(cycle, settings, tmp_path, monkeypatch):
+    simulation = shipped.simulation(cycle, None, *settings)
+    assert twins_apart(simulation, shipped.driven(simulation, 0.54), 200, tmp_path, monkeypatch) < 1e-12
+
+
+# ---- models of others
+
+
+def test_a_callback_leaves_models_alone_that_are_not_its_own():
+    sedan, roll_plane = shipped.simulation(S_CURVE), shipped.simulation(ROLL_PLANE)
+    plain = mujoco.MjModel.from_xml_string("<mujoco><size nuserdata='3'/><worldbody><body><freejoint/>"
+                                           "<geom size='.1'/></body></worldbody></mujoco>")  # fmt: skip
+    alone, beside = sedan.start(), sedan.start()
+    other, falling = roll_plane.start(), mujoco.MjData(plain)
+    with installed(sedan.rig, sedan.model, alone):
+        for _ in range(20):
+            mujoco.mj_step(sedan.model, alone)
+        for _ in range(20):
+            mujoco.mj_step(sedan.model, beside)
+            mujoco.mj_step(roll_plane.model, other)
+            mujoco.mj_step(plain, falling)
+    assert not other.userdata.any()
+    assert not falling.userdata.any()
+    np.testing.assert_array_equal(alone.qpos, beside.qpos)
+
+
+def test_a_restored_state_of_another_layout_is_told():
+    simulation = shipped.simulation(S_CURVE)
+    data = simulation.start()
+    with installed(simulation.rig, simulation.model, data):
+        mujoco.mj_step(simulation.model, data)
+        data.userdata[1] += 1.0
+        mujoco.mj_step(simulation.model, data)
+    with pytest.raises(SimulationError, match="has another layout"):
+        check(simulation, data, empty_recording(simulation))
