@@ -39,3 +39,28 @@ def channels(block: type[Parameters], prefix: str = "") -> list[Channel]:
             unit = next(item.symbol for item in field.metadata if isinstance(item, Unit))
             found.append(Channel(prefix + name, unit, field.description))
     return found
+
+
+def drawn(description: str) -> Any:
+    """An energy (J) that came from outside, less what was given back."""
+    return channel("J", description)
+
+
+def lost(description: str) -> Any:
+    """An energy (J) that became heat."""
+    return channel("J", description)
+
+
+def stored(description: str) -> Any:
+    """An energy (J) that is there now."""
+    return channel("J", description)
+
+
+def counted(description: str) -> Any:
+    """An energy (J) that another one holds already."""
+    return channel("J", description)
+
+
+def done(description: str) -> Any:
+    """An energy (J) that went to the car as work."""
+    return channel("J", description)

@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ars_mujoco.actuators.actuator import Actuator, PumpControlled
+from ars_mujoco.actuators.registry import actuator_schema, system_for
+from ars_mujoco.actuators.system import is_active
 from ars_mujoco.control.controller import Controller
-from ars_mujoco.manoeuvres.cycle import Cycle
+from ars_mujoco.manoeuvres.cycle import Cycle, with_inputs
 from ars_mujoco.schema import library
 from ars_mujoco.schema.document import Input, Override, override, read
 from ars_mujoco.schema.errors import InputError
@@ -72,7 +73,8 @@ def read_inputs(
     overrides = [override(text) for text in settings]
     chosen = {"actuator": actuator, "controller": controller, "vehicle": vehicle}
     _check_named_once(chosen, overrides)
-    driven = read(Cycle, cycle, "cycle", [each for each in overrides if not _part(each)])
+    own_settings = [each for each in overrides if not _part(each)]
+    driven = read(Cycle, cycle, "cycle", own_settings)
     parts, law, problems = {}, None, []
     for part in PARTS:
         name, beside = chosen[part], None
@@ -91,7 +93,12 @@ def read_inputs(
             problems += error.problems
     if problems:
         raise InputError(*problems)
-    commanded = law if isinstance(parts["actuator"].value, PumpControlled) else None
+    system = system_for(parts["actuator"].value)
+    if system.INPUTS:
+        driven = read(with_inputs(system.INPUTS), cycle, "cycle", own_settings)
+    elif driven.value.inputs and is_active(system):
+        raise InputError(f"inputs: the actuator '{parts['actuator'].name}' takes none")
+    commanded = law if is_active(system) else None
     controlled = parts["controller"].value.model_copy(update={"law": commanded and str(commanded.path)})
     return Inputs(driven, **parts | {"controller": replace(parts["controller"], value=controlled)}, law=commanded)
 
@@ -113,7 +120,7 @@ def read_compared(
     others = [text for text in settings if _part(override(text)) != "actuator"]
     runs = [read_inputs(cycle, name, controller, vehicle, others) for name in actuators]
     if len(others) < len(settings):
-        active = [isinstance(each.actuator.value, PumpControlled) for each in runs]
+        active = [is_active(system_for(each.actuator.value)) for each in runs]
         runs = [
             read_inputs(cycle, name, controller, vehicle, settings) if is_active or not any(active) else run
             for name, run, is_active in zip(actuators, runs, active, strict=True)
@@ -139,7 +146,7 @@ def _read_actuator(name: str, own: list[Override], beside: Path | None) -> Input
     for each in own:
         if each.keys == ("kind",):
             raise InputError(f"{each.text}: the kind is the file's; name another actuator instead")
-    return read(Actuator, name, "actuator", own, beside)
+    return read(actuator_schema(), name, "actuator", own, beside)
 
 
 def _read_controller(name: str, own: list[Override], beside: Path | None) -> tuple[Input, Input | None]:
