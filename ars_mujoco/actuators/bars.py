@@ -26,7 +26,9 @@ STATE = np.dtype([("front", BAR), ("rear", BAR)])
 
 
 class BarOutput(Parameters):
-    twist: float = channel("rad", "angle of the left arm less that of the right, positive with the left wheel in jounce")
+    twist: float = channel(
+        "rad", "angle of the left arm less that of the right, positive with the left wheel in jounce"
+    )
     torque: float = channel(
         "Nm", "torque of the bar, positive pushes the body to negative roll; mean over the coming step"
     )

@@ -35,6 +35,7 @@ Host functions:
 """
 
 from collections import namedtuple
+from collections.abc import Iterable
 from dataclasses import dataclass
 from types import ModuleType
 from typing import NamedTuple
@@ -92,18 +93,24 @@ class Beyond:
     channels: tuple[str, ...] = ()
 
 
-NAMES = "NAME File PARAMETERS STATE Output FOLLOWS advance sense is_beyond fill start".split()
+DATA = ("NAME", "File")  # of every module; the rest may be that of its variants
+NAMES = (*DATA, *"PARAMETERS STATE Output FOLLOWS advance sense is_beyond fill start".split())
 DEFAULTS = {
     "WORK": NOTHING, "PLOTS": (), "EVENTS": (), "IN_UNIT": False, "INPUTS": {},
     "BEYOND": Beyond("the actuator left what is physical"),
 }  # fmt: skip
 
 
-def completed(module: ModuleType) -> ModuleType:
-    """`module` with what it leaves out of the contract; raises InputError where it lacks what has no default."""
-    missing = [name for name in NAMES if not hasattr(module, name)]
+def check_data(module: ModuleType, names: Iterable[str] = DATA) -> None:
+    """Raise InputError where `module` lacks one of `names`."""
+    missing = [name for name in names if not hasattr(module, name)]
     if missing:
         raise InputError(f"{module.__file__}: a system needs {', '.join(missing)}")
+
+
+def completed(module: ModuleType) -> ModuleType:
+    """`module` with what it leaves out of the contract; raises InputError where it lacks what has no default."""
+    check_data(module, NAMES)
     if module.FOLLOWS not in ("angle", "torque", "nothing"):
         raise InputError(f"{module.__file__}: FOLLOWS is '{module.FOLLOWS}'; allowed: angle, torque, nothing")
     for name, value in DEFAULTS.items():

@@ -17,7 +17,7 @@ import numpy as np
 
 from ars_mujoco.actuators.pump_controlled.axle import DetailedAxle, DetailedAxleState
 from ars_mujoco.actuators.pump_controlled.bar_angle_loop import outer_gain
-from ars_mujoco.actuators.pump_controlled.file import PumpControlled, fill_axle, fill_detail
+from ars_mujoco.actuators.pump_controlled.file import PumpControlled, fill_axle
 from ars_mujoco.actuators.pump_controlled.full_circuit import FULL_PLANT, start_detailed
 from ars_mujoco.actuators.pump_controlled.pump_control import THIRD_ORDER
 from ars_mujoco.control.control_unit import ControlUnit

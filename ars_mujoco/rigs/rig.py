@@ -4,7 +4,7 @@ The native entry is written once, below. Each pair has a copy with globals of it
 apart: what another system needs is neither compiled, carried nor recorded.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib import import_module
@@ -14,7 +14,7 @@ import numpy as np
 
 from ars_mujoco.actuators import bars
 from ars_mujoco.actuators.system import NOTHING, completed, is_active
-from ars_mujoco.bridge.callback import SIGNATURE, fields, record_at, world_address
+from ars_mujoco.bridge.callback import SIGNATURE, fields, record_at, tables_address, world_address
 from ars_mujoco.bridge.world import layout_version, world_dtype
 from ars_mujoco.control import control_unit
 from ars_mujoco.control.control_unit import COMMAND_LINE, ControlUnit
@@ -30,7 +30,7 @@ from ars_mujoco.schema.parameters import Parameters, record_dtype
 class Frame:
     """A rig without a system: its records' fields, its channels, and its kernels `step`, `sense` and `act`.
 
-    The kernels take (world, mj, system); a rig whose commands come from its cycle has no `sense` and no `act`.
+    The kernels take (world, mj, tables, system); a rig whose commands come from its cycle has no `sense` and no `act`.
     """
 
     name: str
@@ -42,6 +42,7 @@ class Frame:
     sense: Callable | None = None
     act: Callable | None = None
     addresses: Callable | None = None  # model -> numbers of things in it, by name
+    tables: Sequence[tuple] = (("nothing", "f8"),)  # what is only read, and lies in the model
 
 
 @cache
@@ -82,8 +83,10 @@ class Rig:
             np.dtype([(name, record_dtype(block)) for name, block in self._blocks.items()]),
             np.dtype([("sensors", SENSORS), ("inputs", "f8", max(count, 1)), ("work", system.WORK)]),
         )
+        self.TABLES = np.dtype(list(frame.tables))
         self.SIZE, self.VERSION = self.WORLD.itemsize // 8, layout_version(self.WORLD)
-        self.world_at = record_at(self.WORLD)
+        self.TABLES_SIZE = self.TABLES.itemsize // 8
+        self.world_at, self.tables_at = record_at(self.WORLD), record_at(self.TABLES)
 
     @cached_property
     def channels(self) -> dict[str, Channel]:
@@ -103,17 +106,17 @@ class Rig:
         """Whether the rig has the axle that a channel is of."""
         return not channel.name.startswith("rear.") or "rear" in self.frame.bars.model_fields
 
-    def step(self, world, mj) -> None:
+    def step(self, world, mj, tables) -> None:
         """One call of the callback with the shipped controller."""
-        self.frame.step(world, mj, self.system)
+        self.frame.step(world, mj, tables, self.system)
 
-    def sense(self, world, mj) -> None:
+    def sense(self, world, mj, tables) -> None:
         """Bring the world to MuJoCo's time and read the sensors."""
-        self.frame.sense(world, mj, self.system)
+        self.frame.sense(world, mj, tables, self.system)
 
-    def act(self, world, mj) -> None:
+    def act(self, world, mj, tables) -> None:
         """Write the forces of this step into MuJoCo, by the commands in the world."""
-        self.frame.act(world, mj, self.system)
+        self.frame.act(world, mj, tables, self.system)
 
     @cached_property
     def CALLBACK(self) -> NativeCallback:  # noqa: N802 (the compiled `step`)
@@ -133,8 +136,8 @@ class Rig:
     def _native(self, kernel: str) -> FunctionType:
         """A copy of `_entry` with this pair's globals, under a name of its own."""
         own = {
-            "KERNEL": getattr(self.frame, kernel), "WORLD_AT": self.world_at, "SIZE": self.SIZE,
-            "VERSION": self.VERSION, "SYSTEM": self.system,
+            "KERNEL": getattr(self.frame, kernel), "WORLD_AT": self.world_at, "TABLES_AT": self.tables_at,
+            "SIZE": self.SIZE, "TABLES_SIZE": self.TABLES_SIZE, "VERSION": self.VERSION, "SYSTEM": self.system,
         }  # fmt: skip
         name = f"{self.NAME}__{self.system.__name__.replace('.', '_')}__{kernel}"
         made = FunctionType(_entry.__code__, {**_entry.__globals__, **own}, name)
@@ -143,7 +146,8 @@ class Rig:
 
 
 def _entry(model, data):
-    # KERNEL, WORLD_AT, SIZE, VERSION and SYSTEM are the globals of the pair that this is copied for
+    # the names in capitals are the globals of the pair that this is copied for
     address = world_address(model, data, SIZE, VERSION)  # noqa: F821
     if address != 0:
-        KERNEL(WORLD_AT(address), fields(data), SYSTEM)  # noqa: F821
+        tables = TABLES_AT(tables_address(model, SIZE, TABLES_SIZE))  # noqa: F821
+        KERNEL(WORLD_AT(address), fields(data), tables, SYSTEM)  # noqa: F821

@@ -64,16 +64,16 @@ def addresses(model: mujoco.MjModel) -> dict:
 
 
 @kernel
-def step(world, mj, system) -> None:
+def step(world, mj, tables, system) -> None:
     """One call of the callback with the shipped controller."""
-    sense(world, mj, system)
+    sense(world, mj, tables, system)
     p = world.parameters
     own_reference(p.reference, p.unit, p.bars, world.later.reference, world.scratch.sensors, world.header.step)
-    act(world, mj, system)
+    act(world, mj, tables, system)
 
 
 @kernel
-def sense(world, mj, system) -> None:
+def sense(world, mj, tables, system) -> None:
     """Bring the world to MuJoCo's time and read the sensors."""
     begin(world, mj.time)
     p, now, later, out, h = world.parameters, world.now, world.later, world.out.rig, world.header.step
@@ -98,7 +98,7 @@ def sense(world, mj, system) -> None:
 
 
 @kernel
-def act(world, mj, system) -> None:
+def act(world, mj, tables, system) -> None:
     """Lateral force and stabilizers: write the forces of this step into MuJoCo."""
     p, now, later, out, h = world.parameters, world.now, world.later, world.out, world.header.step
     at, body = p.at, out.rig.body

@@ -24,9 +24,7 @@ class Sampler:
     def steps(self, count: int) -> Recording:
         """The samples of the next `count` steps; fewer where the world's status stopped the run."""
         times, values, poses = self._room(count)
-        made = advance(
-            self.model, self.data, times, values, poses, self.stride, self.slots, self.taken, self.in_python
-        )
+        made = advance(self.model, self.data, times, values, poses, self.stride, self.slots, self.taken, self.in_python)
         return self._chunk(times[:made], values[:made], poses)
 
     def last(self) -> Recording:

@@ -10,8 +10,8 @@ from ars_mujoco.bridge import world as worlds
 from ars_mujoco.bridge.callback import installed
 from ars_mujoco.control.law import Law
 from ars_mujoco.recording.recording import Recording, joined, scene_of
-from ars_mujoco.schema.errors import SimulationError
 from ars_mujoco.rigs.rig import Rig
+from ars_mujoco.schema.errors import SimulationError
 from ars_mujoco.simulation.events import Watch
 from ars_mujoco.simulation.sampler import Sampler
 

@@ -38,7 +38,9 @@ class PumpOutput(Parameters):
 
 
 class CylinderPumpOutput(PumpOutput):
-    control_pressure: float = channel("Pa", "pressure difference across the control cylinder (where pump control has one)")
+    control_pressure: float = channel(
+        "Pa", "pressure difference across the control cylinder (where pump control has one)"
+    )
 
 
 class FullPumpOutput(CylinderPumpOutput):

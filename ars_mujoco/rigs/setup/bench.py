@@ -3,8 +3,8 @@
 from ars_mujoco.actuators.registry import module_of, system_for
 from ars_mujoco.actuators.system import Torsion, is_active
 from ars_mujoco.actuators.torsion_bar.system import Locked
+from ars_mujoco.bridge.callback import tables_of
 from ars_mujoco.control.controller import Controller
-from ars_mujoco.excitation.excitation import peak
 from ars_mujoco.manoeuvres.cycle import Cycle
 from ars_mujoco.rigs.setup.start import Start
 from ars_mujoco.schema.errors import InputError
@@ -24,11 +24,12 @@ def set_up(cycle: Cycle, actuator: Parameters, controller: Controller, vehicle: 
     start = Start(specify(vehicle), cycle, _driven(actuator, manoeuvre.motor), controller.unit)
     parameters = start.parameters
     start.fill_system(Torsion(vehicle.stiffness, 0.0), None, has_road=False)
+    tables = tables_of(start.rig, start.simulation.model)
     if manoeuvre.command:
-        parameters.command = manoeuvre.command.record()
-    parameters.ends = manoeuvre.ends.record()
+        parameters.command, tables.command = manoeuvre.command.record(), manoeuvre.command.samples()
+    parameters.ends, tables.ends = manoeuvre.ends.record(), manoeuvre.ends.samples()
     parameters.arm, parameters.ends_height = vehicle.arm, vehicle.height - vehicle.link_length
-    if (travel := peak(parameters.ends)) >= vehicle.arm:
+    if (travel := manoeuvre.ends.peak()) >= vehicle.arm:
         raise InputError(
             f"manoeuvre.ends: a travel of {travel:g} m is too far; allowed: less than the arm's {vehicle.arm:g} m"
         )

@@ -7,7 +7,7 @@ import numpy as np
 
 from ars_mujoco.actuators.registry import system_for
 from ars_mujoco.actuators.system import Car, Torsion
-from ars_mujoco.bridge.world import NUMERIC, new_world
+from ars_mujoco.bridge.world import NUMERIC, TABLES, new_world
 from ars_mujoco.control.control_unit import ControlUnit, check_timing
 from ars_mujoco.control.law import Law
 from ars_mujoco.manoeuvres.cycle import Cycle
@@ -35,12 +35,14 @@ class Start:
 
     @cached_property
     def simulation(self) -> Simulation:
-        """The simulation, compiled with room for the world in userdata and in the last custom numeric.
+        """The simulation, compiled with room for the world in userdata and in the last custom numeric, after the tables.
 
         Raises InputError where MuJoCo refuses the vehicle's model.
         """
         size = self.world.nbytes // 8
         self.spec.nuserdata = size
+        tables = self.rig.TABLES_SIZE
+        self.spec.add_numeric(name=TABLES, size=tables, data=np.zeros(tables))
         self.spec.add_numeric(name=NUMERIC, size=size, data=np.zeros(size))
         try:
             model = self.spec.compile()
