@@ -52,13 +52,16 @@ def cases():
     yield "s_curve_120kmh", "pump_controlled_full", ("actuator.front.oil.temperature=80 degC",)
 
 
-FIXED = ("actuator.control.loop.gain=60 1/rad", "actuator.control.loop.schedule=0")  # the bench's loop, once its own
+FLOW = tuple(f"actuator.{axle}.swash_plate.stop=flow" for axle in ("front", "rear"))
+FIXED = (*FLOW, "actuator.control.loop.gain=60 1/rad", "actuator.control.loop.schedule=0")  # the bench's loop, once its own
 
 
 def today(cycle: str, actuator: str | None, settings: tuple[str, ...]) -> tuple[str | None, tuple[str, ...]]:
     """The same run as it is asked for today."""
     settings = tuple(each.replace("controller.pressure", "actuator.control.pressure") for each in settings)
     settings = tuple(each.replace("controller.compens", "actuator.control.compens") for each in settings)
+    if actuator and actuator.startswith("pump") and not cycle.startswith("bench"):
+        settings = (*settings, *FLOW)
     if cycle.startswith("bench"):
         return ("verification", settings) if actuator == "pump_controlled" else (actuator, (*settings, *FIXED))
     return actuator, settings

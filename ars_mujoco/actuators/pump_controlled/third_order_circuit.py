@@ -95,7 +95,7 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     control = (
         spool_rate,
         spool_acceleration(circuit.servo_valve, spool, spool_rate, command),
-        stroke_rate(circuit.swash_plate, spool),
+        stroke_rate(circuit.swash_plate, spool, stroke),
     )
     return control + plant, powers
 
