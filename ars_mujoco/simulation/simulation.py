@@ -7,10 +7,13 @@ from types import ModuleType
 import mujoco
 import numpy as np
 
+from ars_mujoco.actuators import bar_plots
+from ars_mujoco.actuators.pump_controlled import plots as pump_plots
 from ars_mujoco.bridge import world as worlds
 from ars_mujoco.bridge.callback import installed
 from ars_mujoco.control.law import Law
 from ars_mujoco.recording.recording import Recording, joined, scene_of
+from ars_mujoco.rigs.plots import BENCH, SEDAN, SEDAN_EVENTS
 from ars_mujoco.schema.channels import channels
 from ars_mujoco.schema.errors import SimulationError
 from ars_mujoco.simulation.events import Watch
@@ -18,6 +21,10 @@ from ars_mujoco.simulation.sampler import Sampler
 
 CHUNK = 2.0  # s between two looks at the run
 LAST_SAMPLES = 5  # that a failed run's error shows
+
+# of a rig that does not say what it shows and tells
+TABS = SEDAN.around(bar_plots.PLOTS, pump_plots.PLOTS, BENCH.after)
+CONDITIONS = SEDAN_EVENTS + pump_plots.EVENTS
 
 
 @dataclass(frozen=True)
@@ -45,7 +52,7 @@ def simulate(simulation: Simulation, on_chunk: Callable[[Recording], None] | Non
     """
     model, data = simulation.model, simulation.start()
     steps, per_chunk = round(simulation.duration / model.opt.timestep), round(CHUNK / model.opt.timestep)
-    chunks, watch = [], Watch()
+    chunks, watch = [], Watch(getattr(simulation.rig, "conditions", CONDITIONS))
     with installed(simulation.rig, model, data, simulation.law) as in_python:
         sampler = Sampler(simulation.rig, model, data, empty_recording(simulation), in_python)
         while sampler.taken <= steps:
@@ -60,13 +67,14 @@ def simulate(simulation: Simulation, on_chunk: Callable[[Recording], None] | Non
 
 
 def empty_recording(simulation: Simulation) -> Recording:
-    """A recording of `simulation` without samples: its channels, bodies, scene and inputs."""
+    """A recording of `simulation` without samples: its channels, bodies, scene, tabs and inputs."""
     model = simulation.model
     return Recording(
         title=simulation.title,
         channels={channel.name: channel for channel in channels(simulation.rig.Output)},
         bodies=[model.body(i).name for i in range(model.nbody)],
         scene=scene_of(model),
+        tabs=getattr(simulation.rig, "tabs", TABS),
         inputs=simulation.inputs,
     )
 

@@ -45,7 +45,7 @@ from ars_mujoco.actuators.pump_controlled.third_order_circuit import (
 )
 from ars_mujoco.hydraulics.pump import extrapolation, ideal_flow
 from ars_mujoco.kernels.kernel import kernel
-from ars_mujoco.schema.channels import channel
+from ars_mujoco.schema.channels import channel, done, stored
 from ars_mujoco.schema.parameters import Parameters, number, quantity
 
 NO_BAR, TORSION_BAR, PUMP_CONTROLLED, DETAILED = 0.0, 1.0, 2.0, 3.0
@@ -128,11 +128,11 @@ class ValveOutput(Parameters):
 
 
 class EnergyOutput(CircuitEnergy):
-    work: float = channel("J", "work of the bar on the car")
-    oil: float = channel("J", "stored in the oil's compression")
-    bar: float = channel("J", "stored in the bar's torsion and the motor's mechanical stop")
-    inertia: float = channel("J", "stored in the motor's inertia")
-    oil_motion: float = channel("J", "stored in the moving oil of the lines")
+    work: float = done("work of the bar on the car")
+    oil: float = stored("stored in the oil's compression")
+    bar: float = stored("stored in the bar's torsion and the motor's mechanical stop")
+    inertia: float = stored("stored in the motor's inertia")
+    oil_motion: float = stored("stored in the moving oil of the lines")
 
 
 class AxleOutput(Parameters):
