@@ -121,8 +121,10 @@ def granted(p, asked, share, state, voltage) -> float:
         return asked.current
     side = 1.0 if asked.current > 0.0 else -1.0
     speed = side * p.unit.gear.ratio * state[2]
-    power = share * asked.power - inverter_loss(p.unit.inverter, voltage, abs(asked.current))
-    return side * min(current_within(p.unit.machine, speed, power), abs(asked.current))
+    standby = inverter_loss(p.unit.inverter, voltage, 0.0)
+    by_current = inverter_loss(p.unit.inverter, voltage, 1.0) - standby
+    power = share * asked.power - standby
+    return side * min(current_within(p.unit.machine, speed, by_current, power), abs(asked.current))
 
 
 @inlined
