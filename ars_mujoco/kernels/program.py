@@ -18,7 +18,7 @@ import sys
 from collections import defaultdict
 from functools import cache
 from importlib.metadata import version
-from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
+from types import BuiltinFunctionType, CodeType, FunctionType, MethodType, ModuleType
 
 import llvmlite
 import numba
@@ -30,7 +30,6 @@ from numba.core.typing.templates import builtin_registry
 
 # what belongs to these is told by its name, as their versions are told
 _VERSIONED = sys.stdlib_module_names | {"numba", "numpy", "llvmlite", "mujoco"}
-_NAMED = FunctionType | BuiltinFunctionType | type | np.ufunc | Dispatcher
 _PLAIN = frozenset({int, float, complex, bool, str, bytes, type(None), type(Ellipsis)})
 _GLOBAL = "global"
 _READS = frozenset({"LOAD_ATTR", "LOAD_METHOD"})
@@ -83,8 +82,8 @@ class _Telling:
             self.say(kind.__name__, value)
         elif isinstance(value, ModuleType):
             self._tell_module(value)
-        elif isinstance(value, _NAMED) and _is_versioned(value):
-            self.say("named", getattr(value, "__module__", ""), getattr(value, "__qualname__", value.__name__))
+        elif _is_versioned(value):
+            self.say("named", value.__module__, value.__name__)
         elif isinstance(value, FunctionType):
             if self._is_new(value):
                 self.waiting.append(value)
@@ -226,6 +225,8 @@ def _stands_for(value):
         return value.return_type, value.args
     if isinstance(value, slice):
         return value.start, value.stop, value.step
+    if isinstance(value, BuiltinFunctionType | MethodType):  # as of numpy's random numbers
+        return type(value.__self__), value.__name__
     for name in ("_defn", "__wrapped__"):  # an intrinsic; what functools has wrapped
         if hasattr(value, name):
             return (getattr(value, name),)
@@ -249,5 +250,9 @@ def _overloads() -> dict[int, list]:
 
 
 def _is_versioned(value) -> bool:
-    name = value.__name__ if isinstance(value, ModuleType) else getattr(value, "__module__", None) or "builtins"
-    return name.partition(".")[0] in _VERSIONED
+    """Whether it is found in a library whose version is told; what `exec` makes only says that it is of builtins."""
+    if isinstance(value, ModuleType):
+        return value.__name__.partition(".")[0] in _VERSIONED and sys.modules.get(value.__name__) is value
+    name = getattr(value, "__module__", None) or "builtins"
+    scope = vars(sys.modules[name]) if name in sys.modules and name.partition(".")[0] in _VERSIONED else {}
+    return scope.get(getattr(value, "__name__", None)) is value or getattr(value, "__globals__", None) is scope
