@@ -255,9 +255,9 @@ def test_every_process_numbers_its_functions_apart_a_forked_one_too(elsewhere, p
         import os
         from numba.core.bytecode import FunctionIdentity
         from ars_mujoco.kernels import kernel
-        child = os.fork() == 0
+        if os.fork():
+            os.wait()
         print(FunctionIdentity.from_function(lambda: 0).unique_id, flush=True)
-        child or os.wait()
     """
     elsewhere.write(number=numbering)
     numbers = [number for _ in range(2) for number in ended(elsewhere.start(python, "number.py"))]
