@@ -37,10 +37,14 @@ _CHECKSUM = hashlib.sha256().digest_size
 
 
 class EntryCache(NullCache):
-    """What numba asks for the code of an entry before it compiles, and gives it afterwards."""
+    """What numba asks for the code of an entry before it compiles, and gives it afterwards.
 
-    def __init__(self, name: str, *program):
-        self.name, self.program = re.sub(r"[^\w.]+", "_", name)[-80:], program
+    `program` is all that is compiled, the entry's function among it, as `program.digest` takes it.
+    """
+
+    def __init__(self, function, *program):
+        name = f"{function.__module__}.{function.__qualname__}"
+        self.name, self.program = re.sub(r"[^\w.]+", "_", name)[-100:], program
         self._files: dict = {}
 
     def load_overload(self, sig, target_context):

@@ -33,7 +33,7 @@ def entry(function):
     if interpreted:
         return function
     compiled = numba.njit(**JIT_OPTIONS)(function)
-    compiled._cache = EntryCache(function.__qualname__, compiled)
+    compiled._cache = EntryCache(function, compiled)
     return compiled
 
 
@@ -49,7 +49,7 @@ class NativeCallback:
         options = {"error_model": "numpy"}
         made = CFunc(self.function, normalize_signature(self.signature), locals={}, options=options)
         if self.cached:
-            made._cache = EntryCache(self.function.__qualname__, self.function, options)
+            made._cache = EntryCache(self.function, self.function, options)
         made.compile()
         return made
 

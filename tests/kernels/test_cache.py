@@ -55,7 +55,7 @@ def own_folder(tmp_path: Path) -> Path:
 
 def test_an_entry_is_one_file_by_its_name_and_is_found_again(folder, tmp_path):
     assert not is_loaded()
-    assert only_file(folder).name.startswith("doubled-")
+    assert only_file(folder).name.startswith(f"{doubled.__module__}.doubled-")
     assert is_loaded()
     assert not own_folder(tmp_path).exists()
 
@@ -97,7 +97,7 @@ def test_a_file_out_of_use_is_removed_when_another_is_written(folder):
         (folder / name).write_bytes(b"")
         os.utime(folder / name, (time.time() - days * cache.DAY,) * 2)
     assert not is_loaded()
-    assert sorted(file.name.partition("-")[0] for file in folder.iterdir()) == ["doubled", "recent"]
+    assert sorted(file.name.partition("-")[0] for file in folder.iterdir()) == ["recent", f"{doubled.__module__}.doubled"]
 
 
 def test_a_file_in_use_stays_young(folder):
@@ -223,7 +223,7 @@ def called(x):
 
 @pytest.mark.parametrize("function", [looked_up, called])
 def test_what_holds_addresses_of_this_process_is_compiled_each_time_and_says_so_once(folder, function):
-    with pytest.warns(UserWarning, match=f"{function.__name__} is compiled at every start") as warned:
+    with pytest.warns(UserWarning, match=f"{function.__qualname__} is compiled at every start") as warned:
         assert entry(function)(3.0) == 3.0
         assert entry(function)(3.0) == 3.0
     assert len(warned) == 1
