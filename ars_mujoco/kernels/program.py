@@ -193,6 +193,8 @@ def _instructions(code: CodeType) -> tuple[bytes, frozenset[str], list[tuple]]:
     words, names, loads, path = [], set(), [], None
     for each in dis.get_instructions(code):
         name, argument = each.opname, each.argval
+        if argument is dis.UNKNOWN:  # names of keywords, in Python 3.11
+            argument = code.co_consts[each.arg]
         is_plain = type(argument) in _PLAIN
         words.append((name, argument if is_plain else ""))
         if name in _READS:

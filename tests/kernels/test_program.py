@@ -116,6 +116,13 @@ def test_a_frozen_number_counts_with_its_type(one, other):
     assert told(source.format(one)) == told(source.format(one))
 
 
+def test_the_keywords_of_a_call_count():
+    source = BASE.replace("inner(x)\n        return gain", "inner(KEY=x)\n        return gain").replace(
+        "inner(x):", "inner(a, b):"
+    )
+    assert told(source.replace("KEY=x", "a=x, b=y")) != told(source.replace("KEY=x", "b=x, a=y"))
+
+
 CLOSURES = """
     def runge_kutta(rates, order):
         @kernel
