@@ -21,7 +21,7 @@ from ars_mujoco.bridge.world import LAW_FAILED, stop
 from ars_mujoco.control.control_unit import samples_now
 from ars_mujoco.control.reference import ANGLE, TORQUE, put
 from ars_mujoco.control.sensors import SENSORS
-from ars_mujoco.kernels.kernel import JIT_OPTIONS, NativeCallback, interpreted
+from ars_mujoco.kernels.kernel import JIT_OPTIONS, NativeCallback, entry, interpreted
 from ars_mujoco.schema.errors import InputError
 
 FUNCTION = "command"
@@ -77,7 +77,7 @@ def _two_floats(function):
         front, rear = own(sensors, memory)
         return float(front), float(rear)
 
-    compiled = numba.njit(**JIT_OPTIONS)(command)
+    compiled = entry(command)
     compiled.compile(_ARGUMENTS)
     return compiled
 
@@ -101,7 +101,7 @@ def _callback(rig, command) -> NativeCallback:
                 stop(world, LAW_FAILED, sensors.time)
         act(model, data)
 
-    return NativeCallback(SIGNATURE, control, cached=False)
+    return NativeCallback(SIGNATURE, control)
 
 
 def law(path: Path) -> Law:

@@ -2,22 +2,17 @@
 
 `@kernel` compiles on first use; with NUMBA_DISABLE_JIT=1 the same source runs uncompiled, for debugging and coverage.
 No fastmath: compiled and interpreted runs must agree to the last bits, and NaN must stay NaN. Only the entry points,
-which hold all they call, are cached on disk (`entry`), in a folder whose name is a hash of everything that could make
-the code stale: every source of this package, the versions of numba and MuJoCo, the Python version and the processor.
+which hold all they call, are cached on disk (`entry`, `NativeCallback`), under a digest of their program.
 """
 
-import contextlib
-import hashlib
-import os
-import sys
-import tempfile
-from functools import cache, cached_property
-from importlib.metadata import version
-from pathlib import Path
+from functools import cached_property
 
-import llvmlite.binding
 import numba
+from numba.core.ccallback import CFunc
+from numba.core.sigutils import normalize_signature
 from numba.extending import overload
+
+from ars_mujoco.kernels.cache import EntryCache
 
 interpreted = bool(numba.config.DISABLE_JIT)  # numba reads the environment once, at its import
 
@@ -41,7 +36,6 @@ def specialized(plain):
     """
 
     def declare(writer):
-        plain.writer = writer  # a part of every program that reaches `plain`
         if not interpreted:
             overload(plain, jit_options=JIT_OPTIONS)(writer)
         return writer
@@ -53,8 +47,9 @@ def entry(function):
     """Like `kernel`, for a function that Python or a user's controller calls: compiled on first use, cached on disk."""
     if interpreted:
         return function
-    with cache_folder():
-        return numba.njit(cache=True, **JIT_OPTIONS)(function)
+    compiled = numba.njit(**JIT_OPTIONS)(function)
+    compiled._cache = EntryCache(function, compiled)
+    return compiled
 
 
 class NativeCallback:
@@ -64,37 +59,15 @@ class NativeCallback:
         self.signature, self.function, self.cached = signature, function, cached
 
     @cached_property
+    def compiled(self) -> CFunc:
+        """What numba makes of it; its `cache_hits` are 1 where it came from the disk."""
+        options = {"error_model": "numpy"}
+        made = CFunc(self.function, normalize_signature(self.signature), locals={}, options=options)
+        if self.cached:
+            made._cache = EntryCache(self.function, self.function, options)
+        made.compile()
+        return made
+
+    @property
     def address(self) -> int:
-        with cache_folder():
-            self.compiled = numba.cfunc(self.signature, cache=self.cached, error_model="numpy")(self.function)
         return self.compiled.address
-
-
-@contextlib.contextmanager
-def cache_folder():
-    """Let numba cache what is decorated in a `with` block in this package's own folder."""
-    before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(cache_path())
-    try:
-        yield
-    finally:
-        numba.config.CACHE_DIR = before
-
-
-@cache
-def cache_path() -> Path:
-    """Folder of the compiled code of exactly these sources on exactly this machine."""
-    digest = hashlib.sha256()
-    package = Path(__file__).parents[1]
-    for source in sorted(package.rglob("*.py")):
-        digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes() + b"\0")
-    machine = (sys.version, numba.__version__, version("mujoco-core"), llvmlite.binding.get_host_cpu_name())
-    digest.update(repr((*machine, llvmlite.binding.get_host_cpu_features().flatten())).encode())
-    base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "ars_mujoco"
-    folder = base / digest.hexdigest()[:20]
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError:  # no writable home: compile once a boot rather than not at all
-        folder = Path(tempfile.gettempdir()) / f"ars_mujoco-{os.getuid()}" / folder.name
-        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-    return folder

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from ars_mujoco.control.law import Law
+from ars_mujoco.kernels.program import digest
 from ars_mujoco.schema.errors import InputError, SimulationError
 from ars_mujoco.simulation.simulation import simulate
 from ars_mujoco.studies.inputs import read_inputs
@@ -130,6 +131,19 @@ def test_a_law_is_compiled_once(law):
     own = Law(law(HOLD))
     rig = simulation_of(read_inputs("s_curve_120kmh")).rig
     assert own.callback(rig) is own.callback(rig)
+
+
+def test_a_law_is_found_again_on_disk_by_what_it_says(law):
+    """By a process that has not compiled it, wherever the file lies; another number in it is another law."""
+    rig = simulation_of(read_inputs("roll_plane_step")).rig
+
+    def callback(text):
+        return Law(law(text)).callback(rig)
+
+    assert callback(HOLD).address
+    assert callback(HOLD).compiled.cache_hits == 1
+    other = callback(HOLD.replace("-0.02", "-0.03"))
+    assert digest(other.function) != digest(callback(HOLD).function) == digest(callback("# a comment" + HOLD).function)
 
 
 def test_a_missing_file_is_an_error():
