@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 from records import filled
 
-from ars_mujoco.actuators.actuator import Actuator
 from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitState, rates
+from ars_mujoco.actuators.registry import actuator_schema
 from ars_mujoco.hydraulics.line import ONE_SIDED
 from ars_mujoco.recording.recording import Recording
 from ars_mujoco.rigs.setup import prepare
@@ -22,7 +22,7 @@ ANGLE = list(CircuitState.model_fields).index("angle")
 
 def circuit(axle: str = "front") -> np.record:
     """The record of the shipped ReducedCircuit of an axle."""
-    return filled(getattr(read(Actuator, "pump_controlled", "actuator").value, axle))
+    return filled(getattr(read(actuator_schema(), "pump_controlled", "actuator").value, axle))
 
 
 def one_sided() -> np.record:

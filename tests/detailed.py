@@ -7,21 +7,22 @@ from ars_mujoco.actuators.pump_controlled.full_circuit import detailed_rates
 from ars_mujoco.actuators.pump_controlled.full_plant import BYPASS, FAIL_SAFE, POWERS, STATES
 from ars_mujoco.recording.recording import Recording
 
-ACTUATORS = {"reduced": "pump_controlled", "full": "pump_controlled_full"}
+ACTUATORS = {"reduced": "verification", "full": "pump_controlled_full"}
+FIXED = ("actuator.control.loop.gain=60 1/rad", "actuator.control.loop.schedule=0")  # the verification set's loop
 STAGES = ("third_order", "reduced", "full")
 VARIANTS = [(circuit, stage) for circuit in ACTUATORS for stage in STAGES]
 
 
 def axle(circuit: str = "full", stage: str = "full", *settings: str) -> tuple[np.record, np.record]:
     """(Axle, AxleState) records of the front on the bench, at rest and free to change."""
-    chosen = (f"actuator.pump_control={stage}", *settings)
+    chosen = (*FIXED, f"actuator.pump_control={stage}", *settings)
     _, world = shipped.own_copy(shipped.simulation("bench_step_1deg", ACTUATORS[circuit], *chosen))
-    return world.parameters.stabilizers.front.copy(), world.now.stabilizers.front.copy()
+    return world.parameters.system.front.copy(), world.now.system.front.copy()
 
 
 def drive(cycle: str, circuit: str = "full", stage: str = "full", *settings: str) -> Recording:
     """The recording of a bench cycle."""
-    return shipped.recording(cycle, ACTUATORS[circuit], f"actuator.pump_control={stage}", *settings)
+    return shipped.recording(cycle, ACTUATORS[circuit], *FIXED, f"actuator.pump_control={stage}", *settings)
 
 
 def rates(parameters, x, stroke: float = 0.0, twist: float = 0.0) -> tuple[np.ndarray, np.ndarray]:

@@ -86,5 +86,5 @@ def test_the_compensators_of_the_readme_are_accepted(tmp_path):
     mine = tmp_path / "mine.yaml"
     mine.write_text(shipped("controller")["cascade"].read_text() + block)
     controller = read_inputs("s_curve_120kmh", controller=str(mine)).controller.value
-    assert controller.pressure_feedback.gain == pytest.approx(0.072e-5)
-    assert controller.compensator.frequency == pytest.approx(834)
+    assert actuator.control.pressure_feedback.gain == pytest.approx(0.072e-5)
+    assert actuator.control.compensator.frequency == pytest.approx(834)

@@ -15,9 +15,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ars_mujoco.actuators.actuator import PumpControlled, fill_axle
-from ars_mujoco.actuators.pump_controlled.axle import Axle, AxleState
+from ars_mujoco.actuators.pump_controlled.axle import DetailedAxle, DetailedAxleState
 from ars_mujoco.actuators.pump_controlled.bar_angle_loop import outer_gain
+from ars_mujoco.actuators.pump_controlled.file import PumpControlled, fill_axle
 from ars_mujoco.actuators.pump_controlled.full_circuit import FULL_PLANT, start_detailed
 from ars_mujoco.actuators.pump_controlled.pump_control import THIRD_ORDER
 from ars_mujoco.control.control_unit import ControlUnit
@@ -46,14 +46,14 @@ class Loop:
 
     @property
     def axle(self) -> np.record:
-        """An Axle record of the circuit, as the detailed circuit's kernels take it."""
-        axle = _blank(Axle)
+        """A DetailedAxle record of the circuit, as the detailed circuit's kernels take it."""
+        axle = _blank(DetailedAxle)
         axle.circuit, axle.detail, axle.stiffness = self.circuit, self.detail, self.stiffness
         return axle
 
     def at_rest(self) -> np.record:
-        """An AxleState record of the circuit at rest and charged."""
-        state = _blank(AxleState)
+        """A DetailedAxleState record of the circuit at rest and charged."""
+        state = _blank(DetailedAxleState)
         start_detailed(self.axle, state)
         return state
 
@@ -124,9 +124,9 @@ def loop_of(inputs: Inputs, axle: str = "front") -> Loop:
     actuator, controller = inputs.actuator.value, inputs.controller.value
     if not isinstance(actuator, PumpControlled):
         raise InputError(f"actuator '{actuator.kind}' has no loop to analyse; allowed: pump_controlled")
-    filled, stiffness = _blank(Axle), inputs.vehicle.value.stiffness
-    fill_axle(filled, actuator, axle, stiffness, 0.0, STEP)
-    return Loop(filled.circuit, stiffness, record_of(controller.loop), controller.unit, filled.detail)
+    filled, stiffness = _blank(DetailedAxle), inputs.vehicle.value.stiffness
+    fill_axle(filled, actuator, axle, stiffness, STEP)
+    return Loop(filled.circuit, stiffness, record_of(actuator.control.loop), controller.unit, filled.detail)
 
 
 def record_of(parameters: Parameters) -> np.record:

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ars_mujoco.actuators.pump_controlled.axle import DETAILED, PUMP_CONTROLLED
-from ars_mujoco.actuators.pump_controlled.full_circuit import WORK, advance_detailed
+from ars_mujoco.actuators.pump_controlled.full_circuit import REDUCED_PLANT, WORK, advance_detailed
+from ars_mujoco.actuators.pump_controlled.pump_control import THIRD_ORDER
 from ars_mujoco.actuators.pump_controlled.substeps import detailed_substeps, substeps
 from ars_mujoco.actuators.pump_controlled.third_order_circuit import advance
 from ars_mujoco.analysis.loop import Loop
@@ -16,9 +16,9 @@ def started(loop: Loop, step: float) -> tuple[np.record, np.record, np.record]:
     """(axle, state, work) records for `follow`: the loop's circuit, divided for steps of `step` (s), and at rest."""
     axle = loop.axle
     if loop.is_detailed:
-        axle.kind, axle.substeps = DETAILED, detailed_substeps(axle, step, bypassed=False)
+        axle.substeps = detailed_substeps(axle, step, bypassed=False)
     else:
-        axle.kind, axle.substeps = PUMP_CONTROLLED, substeps(axle.circuit, axle.stiffness, step)
+        axle.substeps = substeps(axle.circuit, axle.stiffness, step)
     return axle, loop.at_rest(), np.zeros(1, WORK).view(np.recarray)[0]
 
 
@@ -32,13 +32,13 @@ def step_response(loop: Loop, gain: float, command: float, step: float, count: i
 @kernel
 def follow(axle, state, work, command, gain: float, step: float) -> None:
     """Advance `state` by `step` s under a command (c0, c1, c2) as in `reduced_circuit.advance`, with K_p `gain`."""
-    if axle.kind == DETAILED:
-        advance_detailed(axle, state, state, (command, gain, 0.0, 0.0), VALVES, step, work)
-    else:
+    if axle.detail.plant == REDUCED_PLANT and axle.detail.stage == THIRD_ORDER:
         advance(
             axle.circuit, axle.stiffness, state.circuit, state.circuit, state.energy, state.energy,
             command, gain, 0.0, 0.0, step, int(axle.substeps),
         )  # fmt: skip
+    else:
+        advance_detailed(axle, state, state, (command, gain, 0.0, 0.0), VALVES, step, work)
 
 
 @entry

@@ -72,10 +72,16 @@ def installed(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None):
 
 def _carries(model: mujoco.MjModel, rig) -> bool:
     """Whether `model` has a world of `rig` as its userdata and as its last custom numeric."""
-    size = rig.WORLD.itemsize // 8
-    if model.nuserdata != size or model.nnumericdata < size:
+    size = rig.SIZE
+    if model.nuserdata != size or model.nnumericdata < size + rig.TABLES_SIZE:
         return False
     return tuple(model.numeric_data[-size:][:2]) == (MAGIC, layout_version(rig.WORLD))
+
+
+def tables_of(rig, model: mujoco.MjModel) -> np.record:
+    """The tables that a model of `rig` holds before its initial world; what is written there stays in the model."""
+    end = model.nnumericdata - rig.SIZE
+    return model.numeric_data[end - rig.TABLES_SIZE : end].view(rig.TABLES).view(np.recarray)[0]
 
 
 def c_function(address: int):
@@ -101,13 +107,13 @@ def python_callback(rig, law=None):
             rig.native_act(model._address, data._address)
             return
         flat = (np.asarray(getattr(data, name)).reshape(-1) for name in Fields._fields[1:])
-        mj = Fields(data.time, *flat)
+        mj, tables = Fields(data.time, *flat), tables_of(rig, model)
         if law:
-            rig.sense(world[0], mj)
+            rig.sense(world[0], mj, tables)
             law.apply(world[0])
-            rig.act(world[0], mj)
+            rig.act(world[0], mj, tables)
         else:
-            rig.step(world[0], mj)
+            rig.step(world[0], mj, tables)
 
     return control
 
@@ -181,6 +187,12 @@ def world_address(model: int, data: int, size: int, version: float) -> int:
         userdata[_STATUS] = OTHER_LAYOUT
         return 0
     return address
+
+
+@kernel
+def tables_address(model: int, size: int, tables_size: int) -> int:
+    """Address of the tables, `tables_size` numbers that lie before the initial world of `size` numbers in the model."""
+    return word(model + _NUMERIC) + 8 * (word(model + _NNUMERICDATA) - size - tables_size)
 
 
 @kernel

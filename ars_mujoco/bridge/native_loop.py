@@ -31,21 +31,21 @@ def _library() -> Path:
     )
 
 
-def advance(model, data, times, values, poses, stride: int, out_slot: int, first: int, python: bool) -> int:
+def advance(model, data, times, values, poses, stride: int, slots, first: int, python: bool) -> int:
     """Step `len(times)` times with the installed callback, recording the sample before each step; return steps made.
 
-    times (n,) s; values (n, nchannel), the `out` block that starts at number `out_slot` of userdata; poses
+    times (n,) s; values (n, nchannel), the numbers at `slots` (nchannel,) of userdata; poses
     (m, nbody, 7), position and quaternion wxyz at every `stride`-th step, counted with `first` steps made before.
     Stops early where the world's status says that something went wrong. With `python` the loop itself is in Python, as
     a callback in Python needs it.
     """
     if python:
-        return _advance_python(model, data, times, values, poses, stride, out_slot, first)
-    return _advance(_mj_step(), model._address, data._address, times, values, poses, stride, out_slot, first)
+        return _advance_python(model, data, times, values, poses, stride, slots, first)
+    return _advance(_mj_step(), model._address, data._address, times, values, poses, stride, slots, first)
 
 
 @entry
-def _advance(mj_step, model, data, times, values, poses, stride, out_slot, first):
+def _advance(mj_step, model, data, times, values, poses, stride, slots, first):
     userdata = carray(doubles(word(data + _USERDATA)), (1 << 30,))
     xpos, xquat = carray(doubles(word(data + _XPOS)), (1 << 30,)), carray(doubles(word(data + _XQUAT)), (1 << 30,))
     pose = 0
@@ -53,7 +53,7 @@ def _advance(mj_step, model, data, times, values, poses, stride, out_slot, first
         call(mj_step, model, data)
         times[i] = userdata[_TIME_SLOT]
         for k in range(values.shape[1]):
-            values[i, k] = userdata[out_slot + k]
+            values[i, k] = userdata[slots[k]]
         if (first + i) % stride == 0:
             for body in range(poses.shape[1]):
                 for k in range(3):
@@ -66,12 +66,12 @@ def _advance(mj_step, model, data, times, values, poses, stride, out_slot, first
     return times.shape[0]
 
 
-def _advance_python(model, data, times, values, poses, stride, out_slot, first):
+def _advance_python(model, data, times, values, poses, stride, slots, first):
     pose = 0
     for i in range(len(times)):
         mujoco.mj_step(model, data)
         times[i] = data.userdata[_TIME_SLOT]
-        values[i] = data.userdata[out_slot : out_slot + values.shape[1]]
+        values[i] = data.userdata[slots]
         if (first + i) % stride == 0:
             poses[pose] = np.hstack([data.xpos, data.xquat])
             pose += 1

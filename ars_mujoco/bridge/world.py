@@ -19,6 +19,7 @@ from ars_mujoco.kernels.kernel import kernel
 
 MAGIC = 4153115110.0  # marks an initialised world
 NUMERIC = "ars_mujoco_world"  # the custom numeric that holds the initial world
+TABLES = "ars_mujoco_tables"  # and the one before it, with what is only read
 
 # status of a run, written by the callback and turned into an error by the loop
 RUNNING, TIME_JUMP, NOT_FINITE, LAW_FAILED, OTHER_LAYOUT, BURST = range(6)

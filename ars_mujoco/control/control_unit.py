@@ -1,9 +1,10 @@
 """Control unit: a computer that samples, and whose output comes late.
 
-With a sample time of zero the unit is continuous: its outer loop lives inside the circuit's substeps, and the
-delay acts on the commanded angle. With a sample time the whole outer loop is sampled, and the delay acts on the
-stroke command.
+The delay acts on what leaves the unit: the commands of the bars, or what a loop makes of them that runs in the unit
+itself. With a sample time of zero the unit is continuous.
 """
+
+from collections import namedtuple
 
 import numpy as np
 
@@ -11,9 +12,13 @@ from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.schema.errors import InputError
 from ars_mujoco.schema.parameters import Parameters, quantity
 
+# what a bar is asked for over the step: `angle` (c0, c1, c2), c0 + c1 t + c2 t^2 in rad since its start; `torque` in Nm
+BarCommand = namedtuple("BarCommand", "angle torque")
+
 SLOTS = 64  # physics steps the delay line holds
 
 DELAY_LINE = np.dtype([("head", "f8"), ("front", "f8", SLOTS), ("rear", "f8", SLOTS)])
+COMMAND_LINE = np.dtype([("head", "f8"), ("values", "f8", (4, SLOTS))])  # angles and torques, front and rear
 
 
 class ControlUnit(Parameters):
@@ -21,6 +26,18 @@ class ControlUnit(Parameters):
 
     sample_time: float = quantity("s", ge=0)  # 0: continuous
     delay: float = quantity("s", ge=0)  # from reading the sensors to the actuator seeing the command
+
+
+@kernel
+def by_angle(stiffness: float, angle, twist: float):
+    """The BarCommand of a commanded angle (c0, c1, c2); the torque is that of the bar's torsion (Nm/rad) at a twist."""
+    return BarCommand(angle, stiffness * (angle[0] - twist))
+
+
+@kernel
+def by_torque(stiffness: float, torque: float, twist: float):
+    """The BarCommand of a commanded torque (Nm); the angle is the one at which the bar's torsion gives it."""
+    return BarCommand((twist + torque / stiffness, 0.0, 0.0), torque)
 
 
 @kernel
@@ -38,6 +55,29 @@ def delayed(unit, line, front: float, rear: float, step: float):
     line.head = float((head + 1) % SLOTS)
     tail = (head - round(unit.delay / step)) % SLOTS
     return line.front[tail], line.rear[tail]
+
+
+@kernel
+def arrive_now(unit, now, later, front, rear, step: float):
+    """The BarCommands as they are: of a system that needs none, or whose own loop runs in the unit."""
+    return front, rear
+
+
+@kernel
+def arrive_late(unit, now, later, front, rear, step: float):
+    """The BarCommands of `unit.delay` before; `now` and `later` are COMMAND_LINE records."""
+    if unit.delay == 0.0:
+        return front, rear
+    later.values[:] = now.values
+    head = int(now.head)
+    later.values[0, head], later.values[1, head] = front.angle[0], rear.angle[0]
+    later.values[2, head], later.values[3, head] = front.torque, rear.torque
+    later.head = float((head + 1) % SLOTS)
+    tail, line = (head - round(unit.delay / step)) % SLOTS, later.values
+    return (
+        BarCommand((line[0, tail], 0.0, 0.0), line[2, tail]),
+        BarCommand((line[1, tail], 0.0, 0.0), line[3, tail]),
+    )
 
 
 def check_timing(unit: ControlUnit, step: float) -> None:

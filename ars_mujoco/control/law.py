@@ -3,6 +3,8 @@
     def command(sensors, memory):
         return front_angle, rear_angle      # rad, commanded angles of the bars
 
+A file that says `GIVES = "torque"` returns the bars' torques (Nm) instead; a system that follows the other gets it by
+the torsion of the bar, M = c (phi - psi).
 `sensors` has the fields of `control.sensors.Sensors`; `memory` holds 32 numbers that stay from sample to sample and
 begin at zero. The function is called once a sample of the control unit. Where numba can compile it, it runs natively.
 """
@@ -17,11 +19,13 @@ import numba
 from ars_mujoco.bridge.callback import SIGNATURE, world_address
 from ars_mujoco.bridge.world import LAW_FAILED, stop
 from ars_mujoco.control.control_unit import samples_now
+from ars_mujoco.control.reference import ANGLE, TORQUE, put
 from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.kernels.kernel import JIT_OPTIONS, NativeCallback, interpreted
 from ars_mujoco.schema.errors import InputError
 
 FUNCTION = "command"
+GIVES = {"angle": ANGLE, "torque": TORQUE}
 _ARGUMENTS = (numba.from_dtype(SENSORS), numba.types.Array(numba.float64, 1, "C"))
 
 
@@ -29,9 +33,9 @@ class Law:
     """A user's function, from the file `path`; `is_native` where numba compiles it."""
 
     def __init__(self, path: Path):
-        self.path, self.function = path, _load(path)
+        self.path, (self.function, self.gives) = path, _load(path)
         self.failure = ""  # what it raised, where that is known
-        self._callbacks: dict[str, NativeCallback] = {}
+        self._callbacks: dict[object, NativeCallback] = {}
         self.is_native = not interpreted and self._compiles()
 
     def _compiles(self) -> bool:
@@ -49,17 +53,17 @@ class Law:
 
     def callback(self, rig) -> NativeCallback:
         """The callback of `rig` with this law in it; only the law is compiled, and once."""
-        if rig.NAME not in self._callbacks:
-            self._callbacks[rig.NAME] = _callback(rig, self._command)
-        return self._callbacks[rig.NAME]
+        if rig not in self._callbacks:
+            self._callbacks[rig] = _callback(rig, self._command)
+        return self._callbacks[rig]
 
     def apply(self, world) -> None:
         """The same from Python."""
         reference, sensors = world.later.reference, world.scratch.sensors
-        if samples_now(world.parameters.stabilizers.unit, sensors.time, world.header.step):
+        if samples_now(world.parameters.unit, sensors.time, world.header.step):
             try:
                 front, rear = self.function(sensors, reference.memory)
-                reference.front, reference.rear = float(front), float(rear)
+                put(reference, self.gives, float(front), float(rear))
             except Exception as error:
                 self.failure = f": {type(error).__name__}: {error}"
                 stop(world, LAW_FAILED, sensors.time)
@@ -89,10 +93,10 @@ def _callback(rig, command) -> NativeCallback:
         sense(model, data)
         world = world_at(address)
         reference, sensors = world.later.reference, world.scratch.sensors
-        if samples_now(world.parameters.stabilizers.unit, sensors.time, world.header.step):
+        if samples_now(world.parameters.unit, sensors.time, world.header.step):
             try:
                 front, rear = command(sensors, reference.memory)
-                reference.front, reference.rear = front, rear
+                put(reference, world.parameters.reference.gives, front, rear)
             except Exception:  # all that compiled code can catch
                 stop(world, LAW_FAILED, sensors.time)
         act(model, data)
@@ -117,7 +121,9 @@ def _load(path: Path):
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:  # whatever a user's file raises
         raise InputError(f"{path}: {type(error).__name__}: {error}") from None
-    function = getattr(module, FUNCTION, None)
+    function, gives = getattr(module, FUNCTION, None), getattr(module, "GIVES", "angle")
     if not callable(function):
         raise InputError(f"{path}: has no function {FUNCTION}(sensors, memory)")
-    return function
+    if gives not in GIVES:
+        raise InputError(f"{path}: GIVES is {gives!r}; allowed: {', '.join(GIVES)}")
+    return function, GIVES[gives]

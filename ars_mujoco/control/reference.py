@@ -1,10 +1,10 @@
-"""The reference: from the sensors to the commanded bar angles, once a sample of the control unit."""
+"""The reference: from the sensors to what the bars are asked for, once a sample of the control unit."""
 
 import numpy as np
 
 from ars_mujoco.control.accelerometer import Accelerometer, AccelerometerState, low_pass, specific_force
-from ars_mujoco.control.control_unit import samples_now
-from ars_mujoco.control.reference_map import REFERENCE_MAP, bar_angles
+from ars_mujoco.control.control_unit import BarCommand, by_angle, by_torque, samples_now
+from ars_mujoco.control.reference_map import REFERENCE_MAP, bar_commands
 from ars_mujoco.control.roll_trim import RollTrim, roll_damping, trim
 from ars_mujoco.control.sensors import MEMORY
 from ars_mujoco.control.speed_fade import SpeedFade, fade
@@ -19,14 +19,19 @@ PARAMETERS = np.dtype(
         ("fade", record_dtype(SpeedFade)),
         ("trim", record_dtype(RollTrim)),
         ("gravity", "f8"),  # m/s^2
+        ("gives", "f8"),  # one of GIVES
     ]
 )
+# what a reference gives: the target map both angles and torques, a law one of them
+BOTH, ANGLE, TORQUE = range(3)
 STATE = np.dtype(
     [
         ("accelerometer", record_dtype(AccelerometerState)),
         ("memory", "f8", MEMORY),
-        ("front", "f8"),  # commands last computed, rad
+        ("front", "f8"),  # angles last computed, rad
         ("rear", "f8"),
+        ("front_torque", "f8"),  # torques last computed, Nm
+        ("rear_torque", "f8"),
     ]
 )
 
@@ -52,17 +57,51 @@ def read_accelerometer(p, now, later, sensors, velocity, axis, frame_acceleratio
     sensors.lateral_acceleration = later.accelerometer.filtered
     later.memory = now.memory
     later.front, later.rear = now.front, now.rear
+    later.front_torque, later.rear_torque = now.front_torque, now.rear_torque
     return reading
 
 
 @kernel
-def own_reference(p, unit, later, sensors, step: float) -> None:
-    """The shipped controller: target map of this very car and trim, faded in with speed, and roll damping."""
+def own_reference(p, unit, stiffness, later, sensors, step: float) -> None:
+    """The shipped controller: target map of this very car and trim, faded in with speed, and roll damping.
+
+    What trim and damping add to the angles, the torsions (Nm/rad) of the bars turn into torques.
+    """
     if samples_now(unit, sensors.time, step):
-        front, rear, roll = bar_angles(p.map, sensors.lateral_acceleration)
+        front, rear, roll, front_torque, rear_torque = bar_commands(p.map, sensors.lateral_acceleration)
         correction = trim(p.trim, later.memory[0], sensors.roll - roll, sensors.step)
         later.memory[0] = correction
         share = fade(p.fade, sensors.speed)
         damping = roll_damping(p.trim, sensors.roll_rate)
         later.front = share * (front + correction) + damping
         later.rear = share * (rear + correction) + damping
+        later.front_torque = share * (front_torque + stiffness.front * correction) + stiffness.front * damping
+        later.rear_torque = share * (rear_torque + stiffness.rear * correction) + stiffness.rear * damping
+
+
+@kernel
+def put(later, gives: float, front: float, rear: float) -> None:
+    """Keep what a law gave, as angles (rad) or torques (Nm)."""
+    if gives == ANGLE:
+        later.front, later.rear = front, rear
+    else:
+        later.front_torque, later.rear_torque = front, rear
+
+
+@kernel
+def commanded(p, later, stiffness, twists):
+    """BarCommands (front, rear) of what was last computed; what a law does not give follows from the bars' torsions."""
+    if p.gives == ANGLE:
+        return (
+            by_angle(stiffness.front, (later.front, 0.0, 0.0), twists.front.angle),
+            by_angle(stiffness.rear, (later.rear, 0.0, 0.0), twists.rear.angle),
+        )
+    if p.gives == TORQUE:
+        return (
+            by_torque(stiffness.front, later.front_torque, twists.front.angle),
+            by_torque(stiffness.rear, later.rear_torque, twists.rear.angle),
+        )
+    return (
+        BarCommand((later.front, 0.0, 0.0), later.front_torque),
+        BarCommand((later.rear, 0.0, 0.0), later.rear_torque),
+    )

@@ -17,10 +17,10 @@ class Sensors(Parameters):
     yaw_rate: float = channel("rad/s", "yaw rate, positive to the left")
     speed: float = channel("m/s", "forward speed")
     steer: float = channel("rad", "steering angle of the road wheels, positive to the left")
-    front_angle: float = channel("rad", "angle of the front motor")
-    rear_angle: float = channel("rad", "angle of the rear motor")
-    front_pressure: float = channel("Pa", "pressure difference across the front motor")
-    rear_pressure: float = channel("Pa", "pressure difference across the rear motor")
+    front_angle: float = channel("rad", "angle between the front bar's halves")
+    rear_angle: float = channel("rad", "angle between the rear bar's halves")
+    front_torque: float = channel("Nm", "torque of the front actuator, as its own sensors tell it")
+    rear_torque: float = channel("Nm", "torque of the rear actuator, as its own sensors tell it")
 
 
 SENSORS = record_dtype(Sensors)

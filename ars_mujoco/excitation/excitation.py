@@ -14,8 +14,8 @@ from ars_mujoco.kernels.kernel import kernel
 JOINED, OSCILLATING, SAMPLED = range(3)
 FORMS = ("knots", "sine", "sweep", "recorded")
 
-# kind is a whole number held as a float; the records of the other kinds stay zero
-EXCITATION = np.dtype([("kind", "f8"), ("knots", SIGNAL), ("oscillation", OSCILLATION), ("samples", SAMPLES)])
+# kind is a whole number held as a float; the records of the other kinds stay zero; samples are a table beside it
+EXCITATION = np.dtype([("kind", "f8"), ("knots", SIGNAL), ("oscillation", OSCILLATION)])
 
 
 class Excitation(Knots):
@@ -42,10 +42,22 @@ class Excitation(Knots):
             record.kind, record.knots = JOINED, self.signal()
         elif self.recorded:
             record.kind = SAMPLED
-            self.recorded.fill(record.samples)
         else:
             record.kind, record.oscillation = OSCILLATING, (self.sine or self.sweep).oscillation()
         return record
+
+    def samples(self) -> np.record:
+        """The SAMPLES record of a recorded input, all zeros for another form."""
+        record = np.zeros(1, SAMPLES).view(np.recarray)[0]
+        if self.recorded:
+            self.recorded.fill(record)
+        return record
+
+    def peak(self) -> float:
+        """The largest magnitude that it can reach."""
+        record = self.record()
+        knots, wave = np.abs(record.knots["values"]).max(), record.oscillation
+        return max(knots, abs(wave.offset) + abs(wave.amplitude), np.abs(self.samples()["values"]).max())
 
 
 @cache
@@ -61,17 +73,11 @@ def ExcitationOf(unit: str) -> type[Excitation]:  # noqa: N802 (reads as a type)
     )
 
 
-def peak(record) -> float:
-    """The largest magnitude that an EXCITATION record can reach."""
-    wave = record.oscillation
-    return max(abs(record.knots.values).max(), abs(wave.offset) + abs(wave.amplitude), abs(record.samples.values).max())
-
-
 @kernel
-def value(p, t: float) -> float:
-    """Value at `t` (s) of an EXCITATION."""
+def value(p, samples, t: float) -> float:
+    """Value at `t` (s) of an EXCITATION, with its SAMPLES beside it."""
     if p.kind == OSCILLATING:
         return oscillating(p.oscillation, t)
     if p.kind == SAMPLED:
-        return sampled(p.samples, t)
+        return sampled(samples, t)
     return signal.value(p.knots, t)

@@ -111,3 +111,15 @@ def slope(p, t):
     s = (t - p.times[k]) / span
     rise = 30.0 * (s * (1.0 - s)) ** 2 if p.join == SMOOTH else 1.0
     return rise * (p.values[k + 1] - p.values[k]) / span
+
+
+@kernel
+def read_all(signals, values, t: float) -> None:
+    """Write the values at `t` (s) of an array of SIGNALs into an array."""
+    for i in range(len(signals)):
+        values[i] = value(signals[i], t)
+
+
+@kernel
+def read_none(signals, values, t: float) -> None:
+    """The same where there are none."""

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import llvmlite.binding
 import numba
+from numba.extending import overload
 
 interpreted = bool(numba.config.DISABLE_JIT)  # numba reads the environment once, at its import
 
@@ -26,6 +27,26 @@ JIT_OPTIONS = {"error_model": "numpy", "fastmath": False, "nogil": True}
 def kernel(function):
     """Compile `function` to native code without fastmath; division by zero gives inf or NaN, not an exception."""
     return numba.njit(**JIT_OPTIONS)(function)
+
+
+def inlined(function):
+    """Like `kernel`, always put in place where it is called: for what a loop over substeps must see through."""
+    return numba.njit(forceinline=True, **JIT_OPTIONS)(function)
+
+
+def specialized(plain):
+    """Declare how `plain`, a Python function whose compiled form depends on the types it gets, is written for them.
+
+    The decorated function takes the types and returns the function to compile. Interpreted, `plain` itself runs.
+    """
+
+    def declare(writer):
+        plain.writer = writer  # a part of every program that reaches `plain`
+        if not interpreted:
+            overload(plain, jit_options=JIT_OPTIONS)(writer)
+        return writer
+
+    return declare
 
 
 def entry(function):

@@ -1,6 +1,7 @@
 """Cycle: a manoeuvre on a rig as a user writes it: what is driven, for how long, and what is expected of it."""
 
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import (
@@ -9,6 +10,7 @@ from pydantic import (
     PlainSerializer,
     PlainValidator,
     ValidationInfo,
+    create_model,
     field_validator,
 )
 
@@ -127,17 +129,10 @@ Expectations = Annotated[
 ]
 
 
-class Valves(Parameters):
-    """Commanded openings of a full circuit's switching valves over time, 0 shut and 1 open."""
-
-    front_bypass: KnotsOf("1", ge=0, le=1) = KnotsOf("1", ge=0, le=1)(knots=[("0 s", 0)])
-    front_fail_safe: KnotsOf("1", ge=0, le=1) = KnotsOf("1", ge=0, le=1)(knots=[("0 s", 1)])
-    rear_bypass: KnotsOf("1", ge=0, le=1) = KnotsOf("1", ge=0, le=1)(knots=[("0 s", 0)])
-    rear_fail_safe: KnotsOf("1", ge=0, le=1) = KnotsOf("1", ge=0, le=1)(knots=[("0 s", 1)])
-
-
 class Cycle(Parameters):
     """A cycle's file. Actuator, controller and vehicle are names or paths; the command line may replace them."""
+
+    MOVED: ClassVar[dict[str, str]] = {"valves": "inputs"}
 
     title: str
     description: str
@@ -146,9 +141,9 @@ class Cycle(Parameters):
     manoeuvre: Manoeuvre
     speed: float | None = quantity("m/s", gt=0, default=None, validate_default=True)  # initial and held; of the sedan
     road: Road = Road()
-    valves: Valves = Valves()
+    inputs: Any = {}  # what the actuator takes besides its commands, over time: see `with_inputs`
     vehicle: str = Field("", validate_default=True)  # else the rig's own
-    actuator: str = "pump_controlled"
+    actuator: str = Field("", validate_default=True)  # else verification on the bench, pump_controlled elsewhere
     controller: str = Field("", validate_default=True)  # else verification on the bench, cascade elsewhere
     reference: str = "passive"  # the actuator whose roll the roll reduction factor is taken against
     window: tuple[Annotated[float, Unit("s", ge=0)], Annotated[float, Unit("s", gt=0)]] | None = (
@@ -184,6 +179,11 @@ class Cycle(Parameters):
     def _default_vehicle(cls, vehicle, info: ValidationInfo):
         return vehicle or info.data.get("rig", "")
 
+    @field_validator("actuator")
+    @classmethod
+    def _default_actuator(cls, actuator, info: ValidationInfo):
+        return actuator or ("verification" if info.data.get("rig") == "bench" else "pump_controlled")
+
     @field_validator("controller")
     @classmethod
     def _default_controller(cls, controller, info: ValidationInfo):
@@ -207,6 +207,16 @@ class Cycle(Parameters):
         """The SIGNAL record of the sedan's speed in m/s."""
         changing = getattr(self.manoeuvre, "speed", None)
         return changing.signal() if changing else signal([0.0], [self.speed])
+
+
+def with_inputs(inputs: Mapping[str, Any]) -> type[Cycle]:
+    """The Cycle of an actuator that takes `inputs`, by name with their unit, rest, least and most value: each is Knots."""
+    fields: dict[str, Any] = {}
+    for name, (unit, rest, least, most) in inputs.items():
+        knots = KnotsOf(unit, ge=least, le=most)
+        fields[name] = (knots, knots.model_construct(knots=((0.0, rest),)))
+    block = create_model("Inputs", __base__=Parameters, **fields)
+    return create_model("Cycle", __base__=Cycle, inputs=(block, block()))
 
 
 def _side(side: object) -> float:

@@ -3,30 +3,18 @@
 import mujoco
 import numpy as np
 
-from ars_mujoco.actuators.pump_controlled import stabilizers
-from ars_mujoco.actuators.pump_controlled.axle import AxleOutput
-from ars_mujoco.actuators.pump_controlled.drive_speed import DriveOutput
-from ars_mujoco.actuators.pump_controlled.full_circuit import WORK
-from ars_mujoco.actuators.pump_controlled.stabilizers import (
-    BAR_ADDRESSES,
-    apply_bar_torques,
-    bar_addresses,
-    check_circuits,
-    sense_circuits,
-    stabilize_both,
-    twist,
-)
-from ars_mujoco.bridge.callback import SIGNATURE, fields, record_at, world_address
-from ars_mujoco.bridge.world import begin, check_finite, layout_version, world_dtype
+from ars_mujoco.actuators import bars
+from ars_mujoco.actuators.bars import account, apply, stabilize, twists_now
+from ars_mujoco.actuators.system import Moment
+from ars_mujoco.bridge.world import begin, check_finite
 from ars_mujoco.control import reference
-from ars_mujoco.control.reference import SensorOutput, own_reference, read_accelerometer
-from ars_mujoco.control.sensors import SENSORS
+from ars_mujoco.control.reference import SensorOutput, commanded, own_reference, read_accelerometer
 from ars_mujoco.excitation.knots import SIGNAL, value
-from ars_mujoco.kernels.kernel import NativeCallback, entry, kernel
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.rigs.rig import Frame
 from ars_mujoco.schema.channels import channel
-from ars_mujoco.schema.parameters import Parameters, record_dtype
+from ars_mujoco.schema.parameters import Parameters
 
-NAME = "roll_plane"
 NO_SPEED = 100.0  # m/s; the rig has none, and a controller that fades in with speed must act
 
 
@@ -41,9 +29,6 @@ class Output(Parameters):
 
     body: BodyOutput
     sensor: SensorOutput
-    front: AxleOutput
-    rear: AxleOutput
-    drive: DriveOutput
 
 
 ADDRESSES = np.dtype(
@@ -53,20 +38,16 @@ ADDRESSES = np.dtype(
         ("roll_position", "f8"),
         ("roll_velocity", "f8"),
         ("roll_joint", "f8"),
-        ("bars", BAR_ADDRESSES),
+        ("bars", bars.ADDRESSES),
     ]
 )
-PARAMETERS = np.dtype(
-    [
-        ("at", ADDRESSES),
-        ("stabilizers", stabilizers.PARAMETERS),
-        ("reference", reference.PARAMETERS),
-        ("acceleration", SIGNAL),  # lateral force over mass, m/s^2
-        ("mass", "f8"),
-    ]
-)
-STATE = np.dtype([("stabilizers", stabilizers.STATE), ("reference", reference.STATE)])
-WORLD = world_dtype(PARAMETERS, STATE, record_dtype(Output), np.dtype([("sensors", SENSORS), ("work", WORK)]))
+PARAMETERS = [
+    ("at", ADDRESSES),
+    ("reference", reference.PARAMETERS),
+    ("acceleration", SIGNAL),  # lateral force over mass, m/s^2
+    ("mass", "f8"),
+]
+STATE = [("reference", reference.STATE)]
 
 
 def addresses(model: mujoco.MjModel) -> dict:
@@ -78,24 +59,24 @@ def addresses(model: mujoco.MjModel) -> dict:
         "roll_position": roll.qposadr[0],
         "roll_velocity": roll.dofadr[0],
         "roll_joint": roll.id,
-        "bars": bar_addresses(model),
+        "bars": bars.addresses(model),
     }
 
 
 @kernel
-def step(world, mj) -> None:
+def step(world, mj, tables, system) -> None:
     """One call of the callback with the shipped controller."""
-    sense(world, mj)
+    sense(world, mj, tables, system)
     p = world.parameters
-    own_reference(p.reference, p.stabilizers.unit, world.later.reference, world.scratch.sensors, world.header.step)
-    act(world, mj)
+    own_reference(p.reference, p.unit, p.bars, world.later.reference, world.scratch.sensors, world.header.step)
+    act(world, mj, tables, system)
 
 
 @kernel
-def sense(world, mj) -> None:
+def sense(world, mj, tables, system) -> None:
     """Bring the world to MuJoCo's time and read the sensors."""
     begin(world, mj.time)
-    p, now, later, out, h = world.parameters, world.now, world.later, world.out, world.header.step
+    p, now, later, out, h = world.parameters, world.now, world.later, world.out.rig, world.header.step
     at, sensors = p.at, world.scratch.sensors
     acceleration = value(p.acceleration, mj.time)
     out.body.roll, out.body.roll_rate = mj.qpos[int(at.roll_position)], mj.qvel[int(at.roll_velocity)]
@@ -110,53 +91,25 @@ def sense(world, mj) -> None:
         p.reference, now.reference, later.reference, sensors, velocity, left, left[1] * acceleration, h
     )
     out.sensor.lateral_acceleration, out.sensor.filtered = reading, sensors.lateral_acceleration
-    sensors.time, sensors.step = mj.time, max(p.stabilizers.unit.sample_time, h)
+    sensors.time, sensors.step = mj.time, max(p.unit.sample_time, h)
     sensors.roll, sensors.roll_rate = out.body.roll, rate
     sensors.speed = NO_SPEED
-    sense_circuits(sensors, now.stabilizers)
+    system.sense(p.system, now.system, sensors)
 
 
 @kernel
-def act(world, mj) -> None:
+def act(world, mj, tables, system) -> None:
     """Lateral force and stabilizers: write the forces of this step into MuJoCo."""
     p, now, later, out, h = world.parameters, world.now, world.later, world.out, world.header.step
-    at = p.at
-    mj.xfrc_applied[6 * int(at.body) + 1] = -p.mass * out.body.lateral_acceleration
-    command = later.reference
-    front, rear = stabilize_both(
-        p.stabilizers, now.stabilizers, later.stabilizers, out.drive, out.front, out.rear, mj.time, h, NO_SPEED,
-        (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
-        world.scratch.work,
-    )  # fmt: skip
-    apply_bar_torques(at.bars, mj, front, rear)
-    check_circuits(world, p.stabilizers, later.stabilizers, mj.time)
-    check_finite(world, front + rear + out.body.roll + out.body.roll_rate, mj.time)
+    at, body = p.at, out.rig.body
+    mj.xfrc_applied[6 * int(at.body) + 1] = -p.mass * body.lateral_acceleration
+    twists = twists_now(at.bars, mj)
+    front_asked, rear_asked = commanded(p.reference, later.reference, p.bars, twists)
+    front, rear = stabilize(world, front_asked, rear_asked, twists, Moment(mj.time, h, NO_SPEED, p.unit), system)
+    account(now.bars.front, later.bars.front, out.bars.front, twists.front, front, h)
+    account(now.bars.rear, later.bars.rear, out.bars.rear, twists.rear, rear, h)
+    apply(at.bars, mj, front, rear)
+    check_finite(world, front + rear + body.roll + body.roll_rate, mj.time)
 
 
-SIZE, VERSION = WORLD.itemsize // 8, layout_version(WORLD)
-world_at = record_at(WORLD)
-
-
-def _control(model, data):
-    address = world_address(model, data, SIZE, VERSION)
-    if address != 0:
-        step(world_at(address), fields(data))
-
-
-@entry
-def native_sense(model: int, data: int) -> None:
-    """`sense` for mjModel and mjData at these addresses."""
-    address = world_address(model, data, SIZE, VERSION)
-    if address != 0:
-        sense(world_at(address), fields(data))
-
-
-@entry
-def native_act(model: int, data: int) -> None:
-    """`act` for mjModel and mjData at these addresses."""
-    address = world_address(model, data, SIZE, VERSION)
-    if address != 0:
-        act(world_at(address), fields(data))
-
-
-CALLBACK = NativeCallback(SIGNATURE, _control)
+FRAME = Frame("roll_plane", PARAMETERS, STATE, Output, bars.Output, step, sense, act, addresses)

@@ -10,33 +10,21 @@ import math
 import mujoco
 import numpy as np
 
-from ars_mujoco.actuators.pump_controlled import stabilizers
-from ars_mujoco.actuators.pump_controlled.axle import AxleOutput
-from ars_mujoco.actuators.pump_controlled.drive_speed import DriveOutput
-from ars_mujoco.actuators.pump_controlled.full_circuit import WORK
-from ars_mujoco.actuators.pump_controlled.stabilizers import (
-    BAR_ADDRESSES,
-    apply_bar_torques,
-    bar_addresses,
-    check_circuits,
-    sense_circuits,
-    stabilize_both,
-    twist,
-)
-from ars_mujoco.bridge.callback import SIGNATURE, fields, record_at, world_address
-from ars_mujoco.bridge.world import begin, check_finite, layout_version, world_dtype
+from ars_mujoco.actuators import bars
+from ars_mujoco.actuators.bars import account, apply, stabilize, twists_now
+from ars_mujoco.actuators.system import Moment
+from ars_mujoco.bridge.world import begin, check_finite
 from ars_mujoco.control import reference
-from ars_mujoco.control.reference import SensorOutput, own_reference, read_accelerometer
-from ars_mujoco.control.sensors import SENSORS
+from ars_mujoco.control.reference import SensorOutput, commanded, own_reference, read_accelerometer
 from ars_mujoco.driving.driver import Driver, DriverOutput, DriverState, drive, preview
 from ars_mujoco.excitation.knots import SIGNAL, slope, value
-from ars_mujoco.kernels.kernel import NativeCallback, entry, kernel
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.rigs.rig import Frame
 from ars_mujoco.roads.bump import Bump, height_and_slope
 from ars_mujoco.schema.channels import channel
 from ars_mujoco.schema.parameters import Parameters, record_dtype
 from ars_mujoco.tires.tire import Tire, TireOutput, TireState, tire
 
-NAME = "sedan"
 CORNERS = ("fl", "fr", "rl", "rr")
 WALKING = 1.0  # m/s; below it a lateral acceleration asks for no tighter path
 
@@ -75,9 +63,6 @@ class Output(Parameters):
     fr: CornerOutput
     rl: CornerOutput
     rr: CornerOutput
-    front: AxleOutput
-    rear: AxleOutput
-    drive: DriveOutput
 
 
 # where things are in the model: numbers of bodies, degrees of freedom, joints, sites and controls
@@ -93,35 +78,28 @@ ADDRESSES = np.dtype(
         ("steer_velocity", "f8", 2),
         ("steer_control", "f8", 2),
         ("spin_velocity", "f8", 4),
-        ("bars", BAR_ADDRESSES),
+        ("bars", bars.ADDRESSES),
     ]
 )
-PARAMETERS = np.dtype(
-    [
-        ("at", ADDRESSES),
-        ("stabilizers", stabilizers.PARAMETERS),
-        ("reference", reference.PARAMETERS),
-        ("driver", record_dtype(Driver)),
-        ("demand", SIGNAL),  # curvature of the path (1/m), lateral acceleration, or in open loop the steering angle
-        ("demand_over_speed", "f8"),  # 1: the demand is a lateral acceleration (m/s^2), the path's at the wanted speed
-        ("speed", SIGNAL),  # m/s
-        ("front_tire", record_dtype(Tire)),
-        ("rear_tire", record_dtype(Tire)),
-        ("bump", record_dtype(Bump)),
-        ("cg_height", "f8"),  # m, of the sprung centre of gravity in the body's frame
-    ]
-)
-STATE = np.dtype(
-    [
-        ("stabilizers", stabilizers.STATE),
-        ("reference", reference.STATE),
-        ("driver", record_dtype(DriverState)),
-        ("tires", record_dtype(TireState), 4),
-        ("velocity", "f8", 2),  # of the sprung centre of gravity in the road plane one step ago, m/s
-        ("running", "f8"),  # 1 once there is such a velocity
-    ]
-)
-WORLD = world_dtype(PARAMETERS, STATE, record_dtype(Output), np.dtype([("sensors", SENSORS), ("work", WORK)]))
+PARAMETERS = [
+    ("at", ADDRESSES),
+    ("reference", reference.PARAMETERS),
+    ("driver", record_dtype(Driver)),
+    ("demand", SIGNAL),  # curvature of the path (1/m), lateral acceleration, or in open loop the steering angle
+    ("demand_over_speed", "f8"),  # 1: the demand is a lateral acceleration (m/s^2), the path's at the wanted speed
+    ("speed", SIGNAL),  # m/s
+    ("front_tire", record_dtype(Tire)),
+    ("rear_tire", record_dtype(Tire)),
+    ("bump", record_dtype(Bump)),
+    ("cg_height", "f8"),  # m, of the sprung centre of gravity in the body's frame
+]
+STATE = [
+    ("reference", reference.STATE),
+    ("driver", record_dtype(DriverState)),
+    ("tires", record_dtype(TireState), 4),
+    ("velocity", "f8", 2),  # of the sprung centre of gravity in the road plane one step ago, m/s
+    ("running", "f8"),  # 1 once there is such a velocity
+]
 
 
 def addresses(model: mujoco.MjModel) -> dict:
@@ -139,24 +117,24 @@ def addresses(model: mujoco.MjModel) -> dict:
         "steer_velocity": [joint.dofadr[0] for joint in steers],
         "steer_control": [model.actuator(f"{corner}_steer").id for corner in CORNERS[:2]],
         "spin_velocity": [model.joint(f"{corner}_spin").dofadr[0] for corner in CORNERS],
-        "bars": bar_addresses(model),
+        "bars": bars.addresses(model),
     }
 
 
 @kernel
-def step(world, mj) -> None:
+def step(world, mj, tables, system) -> None:
     """One call of the callback with the shipped controller."""
-    sense(world, mj)
+    sense(world, mj, tables, system)
     p = world.parameters
-    own_reference(p.reference, p.stabilizers.unit, world.later.reference, world.scratch.sensors, world.header.step)
-    act(world, mj)
+    own_reference(p.reference, p.unit, p.bars, world.later.reference, world.scratch.sensors, world.header.step)
+    act(world, mj, tables, system)
 
 
 @kernel
-def sense(world, mj) -> None:
+def sense(world, mj, tables, system) -> None:
     """Bring the world to MuJoCo's time and read the sensors."""
     begin(world, mj.time)
-    p, now, later, out, h = world.parameters, world.now, world.later, world.out, world.header.step
+    p, now, later, out, h = world.parameters, world.now, world.later, world.out.rig, world.header.step
     sensors = world.scratch.sensors
     body = int(p.at.body)
     rates = _angular_velocity(mj, body)
@@ -173,16 +151,16 @@ def sense(world, mj) -> None:
         p.reference, now.reference, later.reference, sensors, velocity, left, 0.0, h
     )
     out.sensor.filtered = sensors.lateral_acceleration
-    sensors.time, sensors.step = mj.time, max(p.stabilizers.unit.sample_time, h)
+    sensors.time, sensors.step = mj.time, max(p.unit.sample_time, h)
     sensors.roll, sensors.roll_rate = out.body.roll, out.body.roll_rate
     sensors.yaw_rate, sensors.speed, sensors.steer = out.body.yaw_rate, out.body.speed, now.driver.steer
-    sense_circuits(sensors, now.stabilizers)
+    system.sense(p.system, now.system, sensors)
 
 
 @kernel
-def act(world, mj) -> None:
+def act(world, mj, tables, system) -> None:
     """Driver, tires and stabilizers: write the forces of this step into MuJoCo."""
-    p, now, later, out, h = world.parameters, world.now, world.later, world.out, world.header.step
+    p, now, later, out, h = world.parameters, world.now, world.later, world.out.rig, world.header.step
     at, body = p.at, out.body
     speed = value(p.speed, mj.time)
     steer, front_torque, rear_torque = drive(
@@ -200,14 +178,12 @@ def act(world, mj) -> None:
     total += _corner(p, p.rear_tire, now, later, out.rl, mj, rates, 2, h)
     total += _corner(p, p.rear_tire, now, later, out.rr, mj, rates, 3, h)
 
-    command = later.reference
-    front, rear = stabilize_both(
-        p.stabilizers, now.stabilizers, later.stabilizers, out.drive, out.front, out.rear, mj.time, h, body.speed,
-        (command.front, 0.0, 0.0), (command.rear, 0.0, 0.0), twist(at.bars, mj, 0), twist(at.bars, mj, 2),
-        world.scratch.work,
-    )  # fmt: skip
-    apply_bar_torques(at.bars, mj, front, rear)
-    check_circuits(world, p.stabilizers, later.stabilizers, mj.time)
+    twists = twists_now(at.bars, mj)
+    front_asked, rear_asked = commanded(p.reference, later.reference, p.bars, twists)
+    front, rear = stabilize(world, front_asked, rear_asked, twists, Moment(mj.time, h, body.speed, p.unit), system)
+    account(now.bars.front, later.bars.front, world.out.bars.front, twists.front, front, h)
+    account(now.bars.rear, later.bars.rear, world.out.bars.rear, twists.rear, rear, h)
+    apply(at.bars, mj, front, rear)
     driver = steer + front_torque + rear_torque + out.driver.course_error + later.driver.trim
     check_finite(world, total + front + rear + driver, mj.time)
 
@@ -289,30 +265,4 @@ def _corner(p, settings, now, later, out, mj, rates, i, h):
     return fx + fy + fz
 
 
-SIZE, VERSION = WORLD.itemsize // 8, layout_version(WORLD)
-world_at = record_at(WORLD)
-
-
-def _control(model, data):
-    address = world_address(model, data, SIZE, VERSION)
-    if address != 0:
-        step(world_at(address), fields(data))
-
-
-@entry
-def native_sense(model: int, data: int) -> None:
-    """`sense` for mjModel and mjData at these addresses."""
-    address = world_address(model, data, SIZE, VERSION)
-    if address != 0:
-        sense(world_at(address), fields(data))
-
-
-@entry
-def native_act(model: int, data: int) -> None:
-    """`act` for mjModel and mjData at these addresses."""
-    address = world_address(model, data, SIZE, VERSION)
-    if address != 0:
-        act(world_at(address), fields(data))
-
-
-CALLBACK = NativeCallback(SIGNATURE, _control)
+FRAME = Frame("sedan", PARAMETERS, STATE, Output, bars.Output, step, sense, act, addresses)

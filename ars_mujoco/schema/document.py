@@ -207,6 +207,8 @@ def _message(error: dict[str, Any], keys: Keys, value: Any, schema: type | None)
     names = list(schema.model_fields) if schema else []
     written = f"'{value}': " if isinstance(value, str) else ""
     match kind:
+        case "extra_forbidden" if moved := schema and schema.MOVED.get(str(keys[-1])):
+            return f"has moved: {moved}"
         case "extra_forbidden":
             return f"unknown key{did_you_mean(str(keys[-1]), names)}{_listed(names)}"
         case "missing":

@@ -16,7 +16,7 @@ PACKAGE = Path(__file__).parents[1]
 # kind -> (folder, pattern of the shipped files in it); a thing's name is its file's stem
 SHIPPED = {
     "cycle": ("cycles", "*.yaml"),
-    "actuator": ("actuators", "*.yaml"),
+    "actuator": ("actuators", "*/*.yaml"),
     "controller": ("control", "*.yaml"),
     "vehicle": ("mjcf", "*/*.yaml"),
 }

@@ -52,6 +52,7 @@ class Parameters(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     RECORD: ClassVar[np.dtype | None] = None  # of a block whose record is not its fields, but what these attributes are
+    MOVED: ClassVar[dict[str, str]] = {}  # keys of older files, and where each went
 
     @model_validator(mode="before")
     @classmethod

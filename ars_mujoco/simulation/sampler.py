@@ -18,22 +18,20 @@ class Sampler:
     def __init__(self, rig, model: mujoco.MjModel, data: mujoco.MjData, empty: Recording, in_python: bool = False):
         self.model, self.data, self.empty, self.in_python = model, data, empty, in_python
         self.stride = max(round(FRAME / model.opt.timestep), 1)  # steps a frame
-        self.out_slot = rig.WORLD.fields["out"][1] // 8  # where userdata holds the channels
+        self.slots = rig.slots  # where userdata holds the channels
         self.taken = 0  # samples so far
 
     def steps(self, count: int) -> Recording:
         """The samples of the next `count` steps; fewer where the world's status stopped the run."""
         times, values, poses = self._room(count)
-        made = advance(
-            self.model, self.data, times, values, poses, self.stride, self.out_slot, self.taken, self.in_python
-        )
+        made = advance(self.model, self.data, times, values, poses, self.stride, self.slots, self.taken, self.in_python)
         return self._chunk(times[:made], values[:made], poses)
 
     def last(self) -> Recording:
         """The sample of the time that the last step has led to."""
         times, values, poses = self._room(1)
         mujoco.mj_forward(self.model, self.data)
-        times[0], values[0] = self.data.time, self.data.userdata[self.out_slot :][: values.shape[1]]
+        times[0], values[0] = self.data.time, self.data.userdata[self.slots]
         poses[:] = np.hstack([self.data.xpos, self.data.xquat])
         return self._chunk(times, values, poses)
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from types import ModuleType
 
 import mujoco
 import numpy as np
@@ -11,7 +10,7 @@ from ars_mujoco.bridge import world as worlds
 from ars_mujoco.bridge.callback import installed
 from ars_mujoco.control.law import Law
 from ars_mujoco.recording.recording import Recording, joined, scene_of
-from ars_mujoco.schema.channels import channels
+from ars_mujoco.rigs.rig import Rig
 from ars_mujoco.schema.errors import SimulationError
 from ars_mujoco.simulation.events import Watch
 from ars_mujoco.simulation.sampler import Sampler
@@ -22,9 +21,9 @@ LAST_SAMPLES = 5  # that a failed run's error shows
 
 @dataclass(frozen=True)
 class Simulation:
-    """What `simulate` runs: a rig's module and a model that carries the initial world; keyframe 0 is the start."""
+    """What `simulate` runs: a rig with its system, and a model that carries the initial world; keyframe 0 is the start."""
 
-    rig: ModuleType
+    rig: Rig
     model: mujoco.MjModel
     duration: float  # s
     title: str
@@ -64,7 +63,7 @@ def empty_recording(simulation: Simulation) -> Recording:
     model = simulation.model
     return Recording(
         title=simulation.title,
-        channels={channel.name: channel for channel in channels(simulation.rig.Output)},
+        channels=simulation.rig.channels,
         bodies=[model.body(i).name for i in range(model.nbody)],
         scene=scene_of(model),
         inputs=simulation.inputs,
@@ -76,7 +75,8 @@ def check(simulation: Simulation, data: mujoco.MjData, chunk: Recording) -> None
     header = worlds.view(data, simulation.rig.WORLD).header
     if header.status == worlds.RUNNING:
         return
-    time, channel = float(header.status_time), _channel_at_fault(header.status, chunk)
+    time = float(header.status_time)
+    channel = _channel_at_fault(header.status, chunk, simulation.rig.system.BEYOND.channels)
     samples = {channel: chunk[channel][-LAST_SAMPLES:].tolist()} if channel in chunk.channels else {}
     told = f"; the last samples of {channel} are {samples[channel]}" if samples else ""
     message = {
@@ -85,13 +85,13 @@ def check(simulation: Simulation, data: mujoco.MjData, chunk: Recording) -> None
         worlds.LAW_FAILED: f"{simulation.law and simulation.law.path}: the controller failed at {time:g} s"
         f"{simulation.law and simulation.law.failure}",
         worlds.OTHER_LAYOUT: "the state that was restored has another layout than this rig's world",
-        worlds.BURST: f"the circuit left what is physical at {time:.3f} s: over 1000 bar, or far past its stop{told}",
+        worlds.BURST: f"the actuator left what is physical at {time:.3f} s: {simulation.rig.system.BEYOND.text}{told}",
     }[int(header.status)]
     raise SimulationError(message, time, channel, samples)
 
 
-def _channel_at_fault(status: float, chunk: Recording) -> str:
-    """The first channel that is not finite; for a burst the motor with the most pressure."""
+def _channel_at_fault(status: float, chunk: Recording, suspects: tuple[str, ...]) -> str:
+    """The first channel that is not finite; for a system that left what is physical the largest of its `suspects`."""
     if status in (worlds.TIME_JUMP, worlds.OTHER_LAYOUT):
         return "time"
     if status == worlds.LAW_FAILED:
@@ -100,5 +100,5 @@ def _channel_at_fault(status: float, chunk: Recording) -> str:
     bad = ~np.isfinite(last)
     if bad.any():
         return names[int(np.argmax(bad))]
-    pressures = [name for name in names if name.endswith("motor.pressure")]
-    return max(pressures, key=lambda name: abs(last[names.index(name)]))
+    recorded = [name for name in suspects if name in names] or ["time"]
+    return max(recorded, key=lambda name: abs(last[names.index(name)]) if name in names else 0.0)

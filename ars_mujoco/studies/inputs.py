@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ars_mujoco.actuators.actuator import Actuator, PumpControlled
+from ars_mujoco.actuators.registry import actuator_schema, own_system, system_for
+from ars_mujoco.actuators.system import is_active
 from ars_mujoco.control.controller import Controller
-from ars_mujoco.manoeuvres.cycle import Cycle
+from ars_mujoco.manoeuvres.cycle import Cycle, with_inputs
 from ars_mujoco.schema import library
 from ars_mujoco.schema.document import Input, Override, override, read
 from ars_mujoco.schema.errors import InputError
@@ -30,7 +31,8 @@ PARTS = ("actuator", "controller", "vehicle")
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """What a run is made of, each an Input; `law` is the Python file that takes the place of the controller's target.
+    """What a run is made of, each an Input; `law` is the Python file that takes the place of the controller's target,
+    `system` that of an actuator which a user brings.
 
     Two are equal only where they are one and the same, so that they can name the runs of a study.
     """
@@ -40,6 +42,7 @@ class Inputs:
     controller: Input
     vehicle: Input
     law: Input | None = None
+    system: Input | None = None
 
     def record(self) -> dict[str, Any]:
         """Names, hashes, settings and SI values, as a recording keeps them; a law with its path and hash."""
@@ -51,10 +54,11 @@ class Inputs:
                 "values": each.value.model_dump(mode="json"),
             }
             for kind, each in vars(self).items()
-            if kind != "law"
+            if kind not in ("law", "system")
         }
-        if self.law:
-            recorded["controller"]["law"] = {"path": str(self.law.path), "sha256": self.law.sha256}
+        for part, name, code in (("controller", "law", self.law), ("actuator", "system", self.system)):
+            if code:
+                recorded[part][name] = {"path": str(code.path), "sha256": code.sha256}
         return recorded
 
 
@@ -72,8 +76,9 @@ def read_inputs(
     overrides = [override(text) for text in settings]
     chosen = {"actuator": actuator, "controller": controller, "vehicle": vehicle}
     _check_named_once(chosen, overrides)
-    driven = read(Cycle, cycle, "cycle", [each for each in overrides if not _part(each)])
-    parts, law, problems = {}, None, []
+    own_settings = [each for each in overrides if not _part(each)]
+    driven = read(Cycle, cycle, "cycle", own_settings)
+    parts, law, system_code, problems = {}, None, None, []
     for part in PARTS:
         name, beside = chosen[part], None
         if name is None:
@@ -81,7 +86,7 @@ def read_inputs(
         own = [Override(each.text, each.keys[1:], each.value) for each in overrides if _part(each) == part]
         try:
             if part == "actuator":
-                parts[part] = _read_actuator(name, own, beside)
+                parts[part], system_code = _read_actuator(name, own, beside)
             elif part == "controller":
                 parts[part], law = _read_controller(name, own, beside)
             else:
@@ -91,9 +96,19 @@ def read_inputs(
             problems += error.problems
     if problems:
         raise InputError(*problems)
-    commanded = law if isinstance(parts["actuator"].value, PumpControlled) else None
+    system = system_for(parts["actuator"].value)
+    if system.INPUTS:
+        driven = read(with_inputs(system.INPUTS), cycle, "cycle", own_settings)
+    elif driven.value.inputs and is_active(system):
+        raise InputError(f"inputs: the actuator '{parts['actuator'].name}' takes none")
+    commanded = law if is_active(system) else None
     controlled = parts["controller"].value.model_copy(update={"law": commanded and str(commanded.path)})
-    return Inputs(driven, **parts | {"controller": replace(parts["controller"], value=controlled)}, law=commanded)
+    return Inputs(
+        driven,
+        **parts | {"controller": replace(parts["controller"], value=controlled)},
+        law=commanded,
+        system=system_code,
+    )
 
 
 def read_compared(
@@ -113,7 +128,7 @@ def read_compared(
     others = [text for text in settings if _part(override(text)) != "actuator"]
     runs = [read_inputs(cycle, name, controller, vehicle, others) for name in actuators]
     if len(others) < len(settings):
-        active = [isinstance(each.actuator.value, PumpControlled) for each in runs]
+        active = [is_active(system_for(each.actuator.value)) for each in runs]
         runs = [
             read_inputs(cycle, name, controller, vehicle, settings) if is_active or not any(active) else run
             for name, run, is_active in zip(actuators, runs, active, strict=True)
@@ -134,12 +149,22 @@ def read_compared(
     return runs, references
 
 
-def _read_actuator(name: str, own: list[Override], beside: Path | None) -> Input:
-    """An actuator's file; its kind is not set, for the run bears the file's name."""
+def _read_actuator(name: str, own: list[Override], beside: Path | None) -> tuple[Input, Input | None]:
+    """An actuator's file, and the Python file of a user's own system; its kind is not set, for the run bears the file's
+    name.
+    """
     for each in own:
         if each.keys == ("kind",):
             raise InputError(f"{each.text}: the kind is the file's; name another actuator instead")
-    return read(Actuator, name, "actuator", own, beside)
+    if Path(name).suffix != ".py":
+        return read(actuator_schema(), name, "actuator", own, beside), None
+    code = (beside or Path()) / name
+    if not code.is_file():
+        raise InputError(f"no actuator '{code}'; an actuator is a shipped name, a YAML file or a Python file")
+    system = own_system(code)
+    if not code.with_suffix(".yaml").is_file():
+        raise InputError(f"{code}: has no {code.stem}.yaml beside it, with kind: {system.NAME} and its parameters")
+    return read(system.File, code.with_suffix(".yaml"), "actuator", own), _code(code)
 
 
 def _read_controller(name: str, own: list[Override], beside: Path | None) -> tuple[Input, Input | None]:
@@ -161,7 +186,12 @@ def _read_controller(name: str, own: list[Override], beside: Path | None) -> tup
     if replaced:
         takes = f"the law '{path}' takes the place of the target, its fade, its trim and the front's share"
         raise InputError(*(f"{each.text}: {takes}" for each in replaced))
-    return controller, Input(None, path.stem, path, hashlib.sha256(path.read_bytes()).hexdigest())
+    return controller, _code(path)
+
+
+def _code(path: Path) -> Input:
+    """A user's Python file, as it was used."""
+    return Input(None, path.stem, path, hashlib.sha256(path.read_bytes()).hexdigest())
 
 
 def _part(setting: Override) -> str | None:

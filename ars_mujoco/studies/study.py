@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from ars_mujoco.actuators.actuator import PumpControlled
+from ars_mujoco.actuators.registry import system_for
+from ars_mujoco.actuators.system import is_active
 from ars_mujoco.metrics.metric import Run, Value, measure
 from ars_mujoco.recording.folder import RunFolder, check_writable
 from ars_mujoco.recording.recording import Recording
@@ -201,5 +202,5 @@ def _told(value: Value) -> dict[str, Any]:
 def _target(inputs: Inputs) -> tuple[tuple[float, float], ...]:
     """The roll that an active bar without a law aims at: knots of lateral acceleration (m/s^2) and roll (rad)."""
     reference = inputs.controller.value.reference
-    aims = isinstance(inputs.actuator.value, PumpControlled) and reference and not inputs.law
+    aims = is_active(system_for(inputs.actuator.value)) and reference and not inputs.law
     return tuple(reference.target) if aims else ()

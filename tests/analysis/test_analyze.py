@@ -26,7 +26,7 @@ def analyze(monkeypatch, tmp_path):
 def test_it_writes_numbers_and_figures_of_every_analysis(analyze, monkeypatch, tmp_path):
     monkeypatch.setattr(frequency_response, "FREQUENCIES", frequency_response.FREQUENCIES[10::10])
     monkeypatch.setattr(compensators, "CORNERS", compensators.CORNERS[::4])
-    printed = json.loads(analyze("--set", "controller.loop.gain=30 1/rad", "--json"))
+    printed = json.loads(analyze("--set", "actuator.control.loop.gain=30 1/rad", "--json"))
     folder = tmp_path / printed["folder"]
     assert {path.name for path in folder.iterdir()} == {
         f"{name}.{kind}" for name in printed["analyses"] for kind in ("json", "png", "svg")
@@ -37,7 +37,7 @@ def test_it_writes_numbers_and_figures_of_every_analysis(analyze, monkeypatch, t
         numbers = json.loads((folder / f"{name}.json").read_text())
         assert numbers == printed["analyses"][name]
         assert numbers["units"]
-        assert numbers["inputs"]["controller"]["overrides"] == ["--set controller.loop.gain=30 1/rad"]
+        assert numbers["inputs"]["controller"]["overrides"] == ["--set actuator.control.loop.gain=30 1/rad"]
     assert printed["analyses"]["margins"]["gain"]["value"] == 30.0
 
 
@@ -86,7 +86,7 @@ def test_pump_control_without_its_cylinder_is_left_out():
 def test_twice_the_speed_with_half_the_gain_has_the_same_margins():
     nominal, fast = (
         margins.compute(loop_of(read_analyzed(None, None, settings)))["rows"][0]
-        for settings in ([], ["controller.loop.gain=30 1/rad", "actuator.front.pump.speed=6000 rpm"])
+        for settings in ([], ["actuator.control.loop.gain=30 1/rad", "actuator.front.pump.speed=6000 rpm"])
     )
     assert fast["gain_margin"] == pytest.approx(nominal["gain_margin"], rel=1e-6)
 

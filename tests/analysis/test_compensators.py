@@ -33,7 +33,7 @@ from ars_mujoco.studies.inputs import read_inputs
 ROBOT = loop_of(read_inputs("robot_step"))
 OWN = read_inputs("robot_step").controller.value
 SMOOTH = "actuator.front.motor.coulomb_friction=0 Nm"
-OFF = "controller.pressure_feedback.gain=0 1/bar"
+OFF = "actuator.control.pressure_feedback.gain=0 1/bar"
 
 
 def best(loop, sign=1.0, **timing):
@@ -179,9 +179,9 @@ def linear_step(loop, gain, feedback, sample_time, count):
 def test_the_running_code_does_what_the_linear_theory_says(cycle, loop, gain, feedback):
     run = drive(
         cycle, "manoeuvre.command.knots=[[0 s, 0.05 deg]]", SMOOTH, "duration=0.6 s",
-        "controller.unit.sample_time=1 ms", f"controller.loop.gain={gain} 1/rad",
-        f"controller.pressure_feedback.gain={feedback[0]} 1/Pa",
-        f"controller.pressure_feedback.corner={feedback[1]} rad/s",
+        "controller.unit.sample_time=1 ms", f"actuator.control.loop.gain={gain} 1/rad",
+        f"actuator.control.pressure_feedback.gain={feedback[0]} 1/Pa",
+        f"actuator.control.pressure_feedback.corner={feedback[1]} rad/s",
     )  # fmt: skip
     wanted = np.radians(0.05) * linear_step(loop, gain, pressure_feedback(*feedback, 1e-3), 1e-3, len(run.time))
     for name, expected in zip(("front.bar.angle", "front.motor.pressure"), wanted, strict=True):
@@ -201,7 +201,7 @@ def decay(run) -> float:
 def test_the_ringing_dies_away_as_predicted(gain):
     run = drive(
         "robot_step", "manoeuvre.command.knots=[[0 s, 0.05 deg]]", SMOOTH, "duration=1 s",
-        "controller.loop.gain=0.2 1/rad", f"controller.pressure_feedback.gain={gain} 1/Pa",
+        "actuator.control.loop.gain=0.2 1/rad", f"actuator.control.pressure_feedback.gain={gain} 1/Pa",
     )  # fmt: skip
     inner = fed_back(behind_unit(ROBOT, 1e-3), pressure_feedback(gain, 12.0, 1e-3))
     poles = control.feedback(0.2 * inner, np.array([[1.0, 0.0]])).poles()
@@ -219,8 +219,8 @@ def test_the_robot_s_joint_settles_with_its_feedback_and_swings_on_without():
 def test_the_stabilizer_settles_without_feedback_and_not_with_its_sign_turned_round():
     found = most_damping([behind_unit(LOOP, 1e-3)], *settings(LOOP, -1.0))
     feedback = (
-        f"controller.pressure_feedback.gain={found['gain']} 1/Pa",
-        f"controller.pressure_feedback.corner={found['corner']} rad/s",
+        f"actuator.control.pressure_feedback.gain={found['gain']} 1/Pa",
+        f"actuator.control.pressure_feedback.corner={found['corner']} rad/s",
     )
     calm, wild = (drive("bench_step_1deg", "controller.unit.sample_time=1 ms", *more) for more in ((), feedback))
     late = calm.time > 0.4

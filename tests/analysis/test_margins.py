@@ -80,7 +80,7 @@ def test_the_running_control_unit_loses_stability_where_its_gain_margin_ends(sha
         "manoeuvre: {kind: bar_command, command: {join: step, knots: [[0 s, 0.02 deg]]}}\n"
     )
     run = drive(
-        tmp_path / "small.yaml", f"controller.loop.gain={gain} 1/rad", "controller.unit.sample_time=10 ms",
+        tmp_path / "small.yaml", f"actuator.control.loop.gain={gain} 1/rad", "controller.unit.sample_time=10 ms",
         "controller.unit.delay=10 ms", "actuator.front.motor.coulomb_friction=0 Nm",
     )  # fmt: skip
     angle = np.abs(run["front.bar.angle"] - np.median(run["front.bar.angle"][run.time > 1.5]))

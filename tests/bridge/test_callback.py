@@ -54,7 +54,7 @@ def drive_on(simulation, data, steps: int = ON) -> np.ndarray:
 
 
 def set_front_pump_speed(simulation, data, speed: float) -> None:
-    world_of(simulation, data).parameters.stabilizers.front.circuit.pump.speed = speed
+    world_of(simulation, data).parameters.system.front.circuit.pump.speed = speed
 
 
 def world_of(simulation, data):

@@ -52,7 +52,7 @@ def test_poses_are_of_every_tenth_step_of_the_whole_run(simulation):
 def test_it_stops_at_the_step_in_which_something_went_wrong(simulation, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # MuJoCo writes what it warns of into the current folder
     data = shipped.driven(simulation, 0.54)
-    worlds.view(data, simulation.rig.WORLD).later.stabilizers.front.circuit.angle = np.nan
+    worlds.view(data, simulation.rig.WORLD).later.system.front.circuit.angle = np.nan
     made, times, _, _ = recorded(simulation, data)
     assert made == 1
     assert worlds.view(data, simulation.rig.WORLD).header.status == worlds.NOT_FINITE

@@ -63,8 +63,8 @@ def test_a_sampling_unit_holds_its_stroke_command_between_samples():
         for _ in range(100):
             mujoco.mj_step(simulation.model, data)
             world = view(data, simulation.rig.WORLD)
-            strokes.append(float(world.later.stabilizers.front_stroke))
-            angles.append(float(world.now.stabilizers.front.circuit.angle))
+            strokes.append(float(world.later.system.front_stroke))
+            angles.append(float(world.now.system.front.circuit.angle))
     wanted = np.clip(60.0 * (np.radians(1.0) - np.array(angles)), -1, 1)
     assert strokes == pytest.approx(np.repeat(wanted[::5], 5), abs=1e-12)
     assert len(set(strokes)) > 10

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 from records import blank, filled
 
+from ars_mujoco.actuators.bars import STIFFNESS
 from ars_mujoco.control.control_unit import ControlUnit
 from ars_mujoco.control.reference import PARAMETERS, STATE, own_reference
 from ars_mujoco.control.sensors import Sensors
 
 STEP = 1e-3
+TORSIONS = np.rec.array([(5700.0, 5000.0)], STIFFNESS)[0]  # Nm/rad
 
 
 def reference(trim_rate=0.0):
@@ -28,7 +30,7 @@ def commands(record, readings, sample_time, roll=0.0, speed=30.0):
     sensors.step, sensors.roll, sensors.speed = max(unit.sample_time, STEP), roll, speed
     for i, reading in enumerate(readings):
         sensors.time, sensors.lateral_acceleration = i * STEP, reading
-        own_reference(record, unit, state, sensors, STEP)
+        own_reference(record, unit, TORSIONS, state, sensors, STEP)
         found.append((float(state.front), float(state.rear)))
     return np.array(found)
 

@@ -5,10 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ars_mujoco.control.reference_map import KNOTS, REFERENCE_MAP, bar_angles
+from ars_mujoco.control.reference_map import KNOTS, REFERENCE_MAP, bar_commands
 
 SENSOR = [0.0, 3.0, 6.5, 9.0]
 COLUMNS = {"front": [0.0, 0.08, 0.12, 0.10], "rear": [0.0, 0.06, 0.09, 0.095], "roll": [0.0, 0.0, 0.005, 0.023]}
+COLUMNS |= {"front_torque": [0.0, 280.0, 550.0, 800.0], "rear_torque": [0.0, 190.0, 370.0, 540.0]}  # Nm
 
 
 def table(sensor, **columns):
@@ -20,32 +21,33 @@ def table(sensor, **columns):
     return record
 
 
+ORDERED = [COLUMNS[name] for name in ("front", "rear", "roll", "front_torque", "rear_torque")]
+
 MAP = table(SENSOR, **COLUMNS)
 
 
 @given(reading=st.floats(0.0, 30.0))
 def test_it_is_linear_between_its_knots_and_held_beyond(reading):
-    expected = [np.interp(reading, SENSOR, COLUMNS[name]) for name in ("front", "rear", "roll")]
-    assert bar_angles(MAP, reading) == pytest.approx(expected, abs=1e-15)
+    expected = [np.interp(reading, SENSOR, column) for column in ORDERED]
+    assert bar_commands(MAP, reading) == pytest.approx(expected, abs=1e-12)
 
 
 @given(reading=st.floats(0.0, 30.0))
 def test_it_is_odd(reading):
-    assert bar_angles(MAP, -reading) == tuple(-angle for angle in bar_angles(MAP, reading))
+    assert bar_commands(MAP, -reading) == tuple(-angle for angle in bar_commands(MAP, reading))
 
 
 @pytest.mark.parametrize("knot", range(4))
 def test_a_knot_gives_its_own_angles(knot):
-    front, rear, roll = bar_angles(MAP, SENSOR[knot])
-    assert (front, rear, roll) == pytest.approx([COLUMNS[name][knot] for name in ("front", "rear", "roll")], abs=1e-15)
+    assert bar_commands(MAP, SENSOR[knot]) == pytest.approx([column[knot] for column in ORDERED], abs=1e-12)
 
 
 def test_a_full_table_is_used_to_its_end():
     sensor = np.linspace(0.0, 10.0, KNOTS)
     full = table(sensor, front=0.01 * sensor)
-    assert bar_angles(full, 9.9)[0] == pytest.approx(0.099)
-    assert bar_angles(full, 20.0)[0] == pytest.approx(0.1)
+    assert bar_commands(full, 9.9)[0] == pytest.approx(0.099)
+    assert bar_commands(full, 20.0)[0] == pytest.approx(0.1)
 
 
 def test_without_a_table_the_bars_stay_in_the_middle():
-    assert bar_angles(table([]), 5.0) == (0.0, 0.0, 0.0)
+    assert bar_commands(table([]), 5.0) == (0.0, 0.0, 0.0, 0.0, 0.0)

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from ars_mujoco.actuators.actuator import Actuator
 from bench import circuit
 
-from ars_mujoco.actuators.actuator import Actuator
 from ars_mujoco.hydraulics.pump import extrapolation, flow_loss, ideal_flow, torque_loss
 from ars_mujoco.schema.document import override, read
 from ars_mujoco.schema.errors import InputError

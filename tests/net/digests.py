@@ -11,15 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-try:
-    from ars_mujoco.simulation.simulation.simulation import simulate
-
-    from ars_mujoco.studies.inputs import read_inputs
-    from ars_mujoco.studies.study import simulation_of
-except ModuleNotFoundError:
-    from ars_mujoco.simulation.simulation import simulate
-    from ars_mujoco.studies.inputs import read_inputs
-    from ars_mujoco.studies.study import simulation_of
+from ars_mujoco.simulation.simulation import simulate
+from ars_mujoco.studies.inputs import read_inputs
+from ars_mujoco.studies.study import simulation_of
 
 STAGES = ("third_order", "reduced", "full")
 
@@ -58,6 +52,21 @@ def cases():
     yield "s_curve_120kmh", "pump_controlled_full", ("actuator.front.oil.temperature=80 degC",)
 
 
+FLOW = tuple(f"actuator.{axle}.swash_plate.stop=flow" for axle in ("front", "rear"))
+FIXED = (*FLOW, "actuator.control.loop.gain=60 1/rad", "actuator.control.loop.schedule=0")  # the bench's loop, once its own
+
+
+def today(cycle: str, actuator: str | None, settings: tuple[str, ...]) -> tuple[str | None, tuple[str, ...]]:
+    """The same run as it is asked for today."""
+    settings = tuple(each.replace("controller.pressure", "actuator.control.pressure") for each in settings)
+    settings = tuple(each.replace("controller.compens", "actuator.control.compens") for each in settings)
+    if actuator and actuator.startswith("pump") and not cycle.startswith("bench"):
+        settings = (*settings, *FLOW)
+    if cycle.startswith("bench"):
+        return ("verification", settings) if actuator == "pump_controlled" else (actuator, (*settings, *FIXED))
+    return actuator, settings
+
+
 def digest(values: np.ndarray) -> str:
     return "zero" if not values.any() else hashlib.sha256(values.tobytes()).hexdigest()[:10]
 
@@ -67,7 +76,8 @@ def take() -> dict:
     for cycle, actuator, settings in cases():
         name = " ".join([cycle, actuator or "own", *settings])
         try:
-            run = simulate(simulation_of(read_inputs(cycle, actuator, settings=settings)))
+            own, asked = today(cycle, actuator, settings)
+            run = simulate(simulation_of(read_inputs(cycle, own, settings=asked)))
         except Exception as error:
             found[name] = {"error": f"{type(error).__name__}: {str(error).splitlines()[0][:100]}"}
             print(name, found[name], file=sys.stderr)

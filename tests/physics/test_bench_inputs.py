@@ -101,11 +101,12 @@ def test_the_mean_torque_of_each_step_is_that_of_a_sine(frequency):
 
 @pytest.mark.parametrize("form", ["knots", "sine", "sweep"])
 def test_a_free_motor_follows_newtons_law(form):
-    motor, ends = circuit().motor, ExcitationOf("m")(**yaml.load(ENDS[form], yaml.BaseLoader)).record()
+    motor, ends = circuit().motor, ExcitationOf("m")(**yaml.load(ENDS[form], yaml.BaseLoader))
+    excitation, samples = ends.record(), ends.samples()
 
     def rate(t, state):
         angle, speed = state
-        torque = STIFFNESS * (angle - np.arcsin(value(ends, t) / ARM))
+        torque = STIFFNESS * (angle - np.arcsin(value(excitation, samples, t) / ARM))
         return speed, -(torque + friction_torque(motor, speed)) / motor.inertia
 
     run = moved("free", ENDS[form])

@@ -106,8 +106,8 @@ def orders(circuit, stage, *settings, stroke=0.0):
     ends = []
     for count in (*COUNTS, FINEST):
         own, world = shipped.own_copy(shared)
-        world.parameters.stabilizers.front.substeps = count
-        world.now.stabilizers.front.circuit.stroke = stroke
+        world.parameters.system.front.substeps = count
+        world.now.system.front.circuit.stroke = stroke
         recording = simulate(own)
         ends.append([recording[name][-1] for name in CHANNELS])
     errors = np.linalg.norm(np.divide(ends[:-1], ends[-1]) - 1.0, axis=1)

@@ -13,7 +13,7 @@ from ars_mujoco.metrics.metric import G
 RPM = math.pi / 30
 H = 1e-3
 BENCH, STEP_STEER, CIRCLE = "bench_s_curve", "step_steer_iso7401", "steady_circle_iso4138"
-SCHEDULED = "controller.loop.schedule=1"
+SCHEDULED = "actuator.control.loop.schedule=1"
 ENGINE, ELECTRIC = "actuator.drive.kind=engine", "actuator.drive.kind=electric"
 RATE_AND_PRESSURE = ("rate", "pressure")
 
@@ -79,7 +79,7 @@ RAMP = over_time("[2 s, 800 rpm]", "[14 s, 6000 rpm]", "[17 s, 800 rpm]")
 
 @pytest.mark.parametrize("schedule", [0, 1])
 def test_the_energy_audit_closes_while_the_engine_speeds_up_and_down_through_the_s_curve(schedule):
-    recording = drive(BENCH, *RAMP, f"controller.loop.schedule={schedule}")
+    recording = drive(BENCH, *RAMP, f"actuator.control.loop.schedule={schedule}")
     asked = np.interp(recording.time, [2.0, 14.0, 17.0], np.array([800, 6000, 800]) * RPM)
     assert recording["front.pump.speed"] == pytest.approx(asked)
     error = np.abs(astray(recording)).max() / recording["front.energy.throughput"][-1]

@@ -172,7 +172,7 @@ def test_the_coupling_converges_at_least_in_first_order():
         simulation, world = shipped.own_copy(shared)
         simulation.model.opt.timestep = world.header.step = step
         for axle in ("front", "rear"):
-            world.parameters.stabilizers[axle].substeps = 16.0
+            world.parameters.system[axle].substeps = 16.0
         recording = simulate(simulation)
         every = round(0.002 / step)
         return np.column_stack([recording[name][::every] for name in ("body.roll", "front.bar.angle")])
@@ -220,6 +220,6 @@ def test_a_circuit_that_leaves_what_is_physical_stops_the_run():
     simulation = simulation_of(read_inputs("bench_step_10deg"))
     numbers = simulation.model.numeric_data[-simulation.model.nuserdata :]
     world = numbers.view(simulation.rig.WORLD).view(np.recarray)[0]
-    world.parameters.stabilizers.front.circuit.line.capacitance = 1e-17  # with the substeps of 6e-14
+    world.parameters.system.front.circuit.line.capacitance = 1e-17  # with the substeps of 6e-14
     with pytest.raises(SimulationError, match=r"left what is physical at 0\.\d+ s.*front\.motor\.pressure|diverged"):
         simulate(simulation)

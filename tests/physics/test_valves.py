@@ -13,7 +13,7 @@ STROKE_TIME = 0.02  # s, of both valves
 def run(**commands):
     """The step to 10 deg with valves commanded from SWITCHED on."""
     settings = [
-        f"valves.front_{valve}={{join: step, knots: [[0 s, {before}], [{SWITCHED} s, {after}]]}}"
+        f"inputs.front_{valve}={{join: step, knots: [[0 s, {before}], [{SWITCHED} s, {after}]]}}"
         for valve, (before, after) in commands.items()
     ]
     recording = shipped.recording("bench_step_10deg", ACTUATORS["full"], *settings)

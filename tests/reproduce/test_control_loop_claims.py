@@ -36,7 +36,7 @@ def test_12_hz_hold_up_to_1_3_deg(claims):
 
 
 def test_a_low_gain_has_no_12_hz(with_settings):
-    claim = with_settings("bandwidth_12_hz", "controller.loop.gain=20 1/rad")
+    claim = with_settings("bandwidth_12_hz", "actuator.control.loop.gain=20 1/rad")
     assert verdict(claim) == "does not follow from K_p = 20 1/rad"
 
 

@@ -36,7 +36,7 @@ from ars_mujoco.actuators.pump_controlled.full_plant import (
     rest,
 )
 from ars_mujoco.actuators.pump_controlled.pump_control import FULL, advance_pump_control, control_power, stroke_speed
-from ars_mujoco.actuators.pump_controlled.third_order_circuit import plant_rates
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitEnergy, plant_rates
 from ars_mujoco.hydraulics.bypass_valve import BypassValve
 from ars_mujoco.hydraulics.charge_pump import ChargePump
 from ars_mujoco.hydraulics.check_valve import CheckValve
@@ -45,6 +45,7 @@ from ars_mujoco.hydraulics.oil import Fluid
 from ars_mujoco.hydraulics.pipe import Pipe
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.saturation import saturate
+from ars_mujoco.schema.channels import counted, lost
 from ars_mujoco.schema.parameters import Parameters, number, quantity
 
 REDUCED_PLANT, FULL_PLANT = 0.0, 1.0
@@ -62,6 +63,16 @@ class Detail(Parameters):
     bypass_valve: BypassValve
     fail_safe_valve: FailSafeValve
     tank_leakage: float = quantity("m^3/s/Pa", ge=0)  # of one side to the tank
+
+
+class FullCircuitEnergy(CircuitEnergy):
+    """Energies of one axle since the start; what the reduced plant does not have stays zero."""
+
+    line: float = lost("to the flow through the lines and the fail-safe valve")
+    check: float = lost("over the check valves")
+    bypass: float = lost("over the bypass valve")
+    tank_leakage: float = lost("to leakage to the tank")
+    charge_pump: float = counted("of charge, work of the shaft on the charge pump")
 
 
 class DetailState(Parameters):
@@ -167,6 +178,25 @@ def advance_detailed(axle, now, later, demand, valves, step: float, work) -> flo
         state = end
     _write(axle, now, later, state, x, sums, (recovered, throughput, supplied), h)
     return sums[BAR_TORQUE] / count
+
+
+@kernel
+def advance_apart(p, now, later, front_demand, rear_demand, valves, step: float, work):
+    """Advance the circuits of both axles one after the other; return their bar torques (front, rear) in Nm.
+
+    An axle without substeps has no circuit.
+    """
+    front = advance_detailed(p.front, now.front, later.front, front_demand, valves[0], step, work)
+    rear = 0.0
+    if p.rear.substeps > 0.0:
+        rear = advance_detailed(p.rear, now.rear, later.rear, rear_demand, valves[1], step, work)
+    return front, rear
+
+
+@kernel
+def shaft_work(axle) -> float:
+    """Work (J) of the shaft on an axle's pump and on a full circuit's charge pump."""
+    return axle.energy.shaft + axle.energy.charge_pump
 
 
 @kernel

@@ -61,7 +61,7 @@ def control_power(circuit, detail, state) -> float:
 def stroke_speed(circuit, detail, state) -> float:
     """Rate of the pump stroke (1/s)."""
     if detail.stage == THIRD_ORDER:
-        return stroke_rate(circuit.swash_plate, state[0])
+        return stroke_rate(circuit.swash_plate, state[0], state[4])
     return state[5] / circuit.control_cylinder.travel
 
 
@@ -164,7 +164,7 @@ def _third_order_rates(circuit, state, h, k, command):
     spool, spool_rate, stroke = state[0] + h * k[0], state[1] + h * k[1], state[4] + h * k[2]
     wanted = valve_command(circuit.swash_plate_loop, circuit.swash_plate, command, stroke)
     acceleration = spool_acceleration(circuit.servo_valve, spool, spool_rate, wanted)
-    return spool_rate, acceleration, stroke_rate(circuit.swash_plate, spool)
+    return spool_rate, acceleration, stroke_rate(circuit.swash_plate, spool, stroke)
 
 
 @kernel

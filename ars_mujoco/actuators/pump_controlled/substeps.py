@@ -17,12 +17,10 @@ from ars_mujoco.actuators.pump_controlled.full_plant import (
     A,
 )
 from ars_mujoco.actuators.pump_controlled.third_order_circuit import rates
+from ars_mujoco.hydraulics.swash_plate import CUSHION
 from ars_mujoco.kernels.kernel import entry
-from ars_mujoco.schema.errors import InputError
+from ars_mujoco.kernels.substeps import differences, fewest_substeps
 
-FEWEST, MOST = 4, 200
-MARGIN = 0.92  # of the stable step: the friction's own eigenvalue moves a little as the bar loads the motor
-RESOLVED = 1.0  # rad a substep, of the fastest oscillation
 NUDGES = np.array([1e-4, 1e-2, 1e-4, 1e2, 1e-6, 1e-6])  # of the reduced circuit's six states, for the slopes
 PLANT_NUDGES = np.array([1e2] * FLOW_A + [1e-9] * (GALLERY - FLOW_A) + [1e2, 1e-6, 1e-6, 1e-4, 1e-4])
 
@@ -31,13 +29,16 @@ def substeps(circuit, bar_stiffness: float, step: float) -> int:
     """The fewest substeps of a physics step (s) in which all that decays does decay, and oscillations are resolved.
 
     Looked at where the reduced circuit with its pump control is stiffest: at rest (the friction's rounding), moving,
-    over the relief valve's pressure and past the mechanical stop. Raises InputError where more than MOST are needed.
+    over the relief valve's pressure, past the mechanical stop and in the swash plate's cushion. Raises InputError where too many are needed.
     """
-    states = np.zeros((4, 6))
+    states = np.zeros((5, 6))
     states[1, 5] = 1.0  # rad/s
     states[2, 3] = 1.1 * circuit.relief_valve.pressure
     states[3, 4] = 1.01 * circuit.motor.stop_angle
-    return _fewest([_slopes(partial(_rates, circuit, bar_stiffness), state, NUDGES) for state in states], step)
+    states[4, 0], states[4, 2] = 1.0, 1.0 - 0.5 * CUSHION
+    return fewest_substeps(
+        [differences(partial(_rates, circuit, bar_stiffness), state, NUDGES) for state in states], step
+    )
 
 
 def detailed_substeps(axle, step: float, bypassed: bool) -> int:
@@ -55,35 +56,7 @@ def detailed_substeps(axle, step: float, bypassed: bool) -> int:
     states[3, ANGLE] = 1.01 * axle.circuit.motor.stop_angle
     states[4, GALLERY] *= 2.0
     states[5, FAIL_SAFE] = 0.0
-    return _fewest([_slopes(partial(_plant_rates, axle), state, PLANT_NUDGES) for state in states], step)
-
-
-def _fewest(slopes: list[np.ndarray], step: float) -> int:
-    """The fewest substeps for all of these matrices (n, n) of slopes (1/s)."""
-    eigenvalues = np.concatenate([np.linalg.eigvals(each) for each in slopes])
-    decaying = eigenvalues[eigenvalues.real <= 0.0] * step
-    for count in range(FEWEST, MOST + 1):
-        z = decaying / (MARGIN * count)
-        if np.abs(_amplification(z)).max() <= 1.0 and np.abs(z.imag).max() <= RESOLVED:
-            return count
-    fastest = np.abs(eigenvalues).max()
-    raise InputError(
-        f"the circuit's fastest eigenvalue, {fastest:.2g} 1/s, needs more than {MOST} substeps of {1e3 * step:g} ms; "
-        "a capacitance, an inertia or a friction speed is too small, or a rate or gain too large"
-    )
-
-
-def _amplification(z: np.ndarray) -> np.ndarray:
-    """Growth of a mode over one classical Runge-Kutta step, z = eigenvalue times step."""
-    return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))
-
-
-def _slopes(rates, state: np.ndarray, nudges: np.ndarray) -> np.ndarray:
-    """Derivatives of the states' rates by the states, by central differences."""
-    columns = [
-        np.subtract(rates(state + nudge), rates(state - nudge)) / (2.0 * nudge.sum()) for nudge in np.diag(nudges)
-    ]
-    return np.column_stack(columns)
+    return fewest_substeps([differences(partial(_plant_rates, axle), state, PLANT_NUDGES) for state in states], step)
 
 
 @entry

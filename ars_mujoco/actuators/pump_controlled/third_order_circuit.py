@@ -24,7 +24,7 @@ from ars_mujoco.hydraulics.swash_plate import SwashPlate, stroke_rate
 from ars_mujoco.hydraulics.vane_motor import VaneMotor, friction_torque, stop_torque
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.saturation import saturate
-from ars_mujoco.schema.channels import channel
+from ars_mujoco.schema.channels import channel, counted, drawn, lost
 from ars_mujoco.schema.parameters import Parameters, quantity
 
 NOTHING = (0.0,) * 11
@@ -67,23 +67,18 @@ class CircuitState(Parameters):
 class CircuitEnergy(Parameters):
     """Energies of one axle since the start, integrated in the substeps with the weights of the states."""
 
-    shaft: float = channel("J", "work of the pump shaft, less what came back")
-    recovered: float = channel("J", "work given back to the shaft, as a positive number")
-    pump_torque_loss: float = channel("J", "lost to the pump's torque loss")
-    pump_leakage: float = channel("J", "lost to leakage in the pump, its flow loss")
-    motor_leakage: float = channel("J", "lost to leakage in the motor")
-    relief: float = channel("J", "lost over the relief valve")
-    friction: float = channel("J", "lost to friction in the motor")
-    capacitance: float = channel("J", "taken by the oil's capacitance as it varies with the angle")
-    line: float = channel("J", "lost to the flow through the lines and the fail-safe valve")
-    check: float = channel("J", "lost over the check valves")
-    bypass: float = channel("J", "lost over the bypass valve")
-    tank_leakage: float = channel("J", "lost to leakage to the tank")
-    charge: float = channel("J", "drawn by charge and control supply")
-    charge_pump: float = channel("J", "of that, work of the shaft on the charge pump (full circuit)")
-    charge_loss: float = channel("J", "of charge, what never reaches the circuit")
-    motor: float = channel("J", "work of the motor on the bar")
-    throughput: float = channel("J", "integral of |shaft| + |motor| power")
+    shaft: float = drawn("work of the pump shaft, less what came back")
+    recovered: float = counted("work given back to the shaft, as a positive number")
+    pump_torque_loss: float = lost("to the pump's torque loss")
+    pump_leakage: float = lost("to leakage in the pump, its flow loss")
+    motor_leakage: float = lost("to leakage in the motor")
+    relief: float = lost("over the relief valve")
+    friction: float = lost("to friction in the motor")
+    capacitance: float = lost("taken by the oil's capacitance as it varies with the angle")
+    charge: float = drawn("by charge and control supply")
+    charge_loss: float = lost("of charge, what never reaches the circuit")
+    motor: float = counted("work of the motor on the bar")
+    throughput: float = counted("integral of |shaft| + |motor| power")
 
 
 @kernel
@@ -100,7 +95,7 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     control = (
         spool_rate,
         spool_acceleration(circuit.servo_valve, spool, spool_rate, command),
-        stroke_rate(circuit.swash_plate, spool),
+        stroke_rate(circuit.swash_plate, spool, stroke),
     )
     return control + plant, powers
 

@@ -2,31 +2,32 @@
 
 import numpy as np
 
-from ars_mujoco.actuators.actuator import Actuator
 from ars_mujoco.bridge.callback import installed
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.driving.driver import Driver
 from ars_mujoco.excitation.knots import signal
 from ars_mujoco.manoeuvres.cycle import Circle, Cycle, Follow, StepSteer, Straight
-from ars_mujoco.rigs.setup.car import fill_addresses, fill_reference, fill_stabilizers
+from ars_mujoco.rigs.setup.car import fill_addresses, fill_reference, law_of, torsion
 from ars_mujoco.rigs.setup.start import Start
 from ars_mujoco.rigs.setup.steady_turn import steering_angle, understeer
-from ars_mujoco.schema.parameters import fill
+from ars_mujoco.schema.parameters import Parameters, fill
 from ars_mujoco.simulation.simulation import Simulation
 from ars_mujoco.tires.contact import rolling_radius
 from ars_mujoco.vehicle import rest
+from ars_mujoco.vehicle.model import specify
 from ars_mujoco.vehicle.sedan import Sedan
 
 CIRCLE_ENTRY = 3.0  # s, over which the driver bends into a circle
 AXLES = ("front", "front", "rear", "rear")  # of the corners fl, fr, rl, rr
 
 
-def set_up(start: Start, cycle: Cycle, actuator: Actuator, controller: Controller, vehicle: Sedan) -> Simulation:
+def set_up(cycle: Cycle, actuator: Parameters, controller: Controller, vehicle: Sedan) -> Simulation:
     """The sedan's simulation."""
+    start = Start(specify(vehicle), cycle, actuator, controller.unit, law_of(controller))
     parameters, model = start.parameters, start.simulation.model
     fill_addresses(parameters.at, start.rig.addresses(model))
-    fill_stabilizers(start, actuator, vehicle.front.bar, vehicle.rear.bar)
-    fill_reference(parameters.reference, model, actuator, controller, vehicle)
+    start.fill_system(torsion(vehicle.front.bar), torsion(vehicle.rear.bar), has_road=True)
+    fill_reference(start, controller, vehicle)
     fill(parameters.front_tire, vehicle.front.tire)
     fill(parameters.rear_tire, vehicle.rear.tire)
     fill(parameters.driver, _driver(vehicle))

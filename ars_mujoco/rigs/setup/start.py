@@ -1,36 +1,48 @@
 """Start: a world and the model that carries it, while both are made ready for a run."""
 
 from functools import cached_property
-from types import ModuleType
 
 import mujoco
 import numpy as np
 
-from ars_mujoco.actuators.actuator import Actuator, fill_axle, start_axle
-from ars_mujoco.bridge.world import NUMERIC, new_world
+from ars_mujoco.actuators.registry import system_for
+from ars_mujoco.actuators.system import Car, Torsion
+from ars_mujoco.bridge.world import NUMERIC, TABLES, new_world
+from ars_mujoco.control.control_unit import ControlUnit, check_timing
 from ars_mujoco.control.law import Law
 from ars_mujoco.manoeuvres.cycle import Cycle
+from ars_mujoco.rigs.rig import rig
 from ars_mujoco.schema.errors import InputError
+from ars_mujoco.schema.parameters import Parameters, fill
 from ars_mujoco.simulation.simulation import Simulation
 
 
 class Start:
-    """A new world of `rig`, to be filled through `parameters`, and the simulation whose model it is stored in."""
+    """A new world of the cycle's rig with `actuator` in it, to be filled through `parameters`, and the simulation whose
+    model it is stored in.
+    """
 
-    def __init__(self, rig: ModuleType, spec: mujoco.MjSpec, cycle: Cycle, law: Law | None):
-        self.rig, self.spec, self.cycle, self.law = rig, spec, cycle, law
+    def __init__(
+        self, spec: mujoco.MjSpec, cycle: Cycle, actuator: Parameters, unit: ControlUnit, law: Law | None = None
+    ):
+        self.rig, self.actuator = rig(cycle.rig, system_for(actuator)), actuator
+        self.spec, self.cycle, self.unit, self.law = spec, cycle, unit, law
         self.step = spec.option.timestep  # s
-        self.world = new_world(rig.WORLD, self.step)
+        check_timing(unit, self.step)
+        self.world = new_world(self.rig.WORLD, self.step)
         self.parameters = self.world[0].parameters
+        fill(self.parameters.unit, unit)
 
     @cached_property
     def simulation(self) -> Simulation:
-        """The simulation, compiled with room for the world in userdata and in the last custom numeric.
+        """The simulation, compiled with room for the world in userdata and in the last custom numeric, after the tables.
 
         Raises InputError where MuJoCo refuses the vehicle's model.
         """
         size = self.world.nbytes // 8
         self.spec.nuserdata = size
+        tables = self.rig.TABLES_SIZE
+        self.spec.add_numeric(name=TABLES, size=tables, data=np.zeros(tables))
         self.spec.add_numeric(name=NUMERIC, size=size, data=np.zeros(size))
         try:
             model = self.spec.compile()
@@ -38,14 +50,15 @@ class Start:
             raise InputError(f"vehicle: MuJoCo refuses its model: {'; '.join(str(error).splitlines())}") from None
         return Simulation(self.rig, model, self.cycle.duration, self.cycle.title, self.law)
 
-    def fill_stabilizer(self, axle: str, actuator: Actuator, stiffness: float, passive_stiffness: float) -> None:
-        """Write an axle ("front" or "rear") of `actuator` as `actuator.fill_axle` does, at rest and charged."""
-        stabilizers = self.parameters.stabilizers
-        bypassed = bool(np.any(getattr(self.cycle.valves, f"{axle}_bypass").signal().values))
-        fill_axle(stabilizers[axle], actuator, axle, stiffness, passive_stiffness, self.step, bypassed)
-        start_axle(stabilizers[axle], self.world[0].now.stabilizers[axle])
-        for valve in ("bypass", "fail_safe"):
-            stabilizers[f"{axle}_valves"][valve] = getattr(self.cycle.valves, f"{axle}_{valve}").signal()
+    def fill_system(self, front: Torsion, rear: Torsion | None, has_road: bool) -> None:
+        """Write the bars' torsions, the inputs that the cycle commands, and the system at rest."""
+        parameters, system, inputs = self.parameters, self.rig.system, {}
+        parameters.bars.front = front.stiffness
+        parameters.bars.rear = rear.stiffness if rear else 0.0
+        for i, name in enumerate(system.INPUTS):
+            inputs[name] = parameters.inputs[i] = getattr(self.cycle.inputs, name).signal()
+        system.fill(parameters.system, self.actuator, Car(front, rear, self.unit, inputs, has_road), self.step)
+        system.start(parameters.system, self.world[0].now.system)
 
     def stored(self) -> Simulation:
         """The simulation, with the world as it is now written into its model."""

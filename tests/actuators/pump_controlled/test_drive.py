@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-
 from ars_mujoco.actuators.actuator import Actuator
+
 from ars_mujoco.machines.electric_motor import ElectricMotor
 from ars_mujoco.machines.engine import Engine
 from ars_mujoco.schema.document import override, read

@@ -14,11 +14,11 @@ from ars_mujoco.schema.errors import InputError
 from ars_mujoco.studies.inputs import read_inputs
 
 SAMPLED = "controller.unit.sample_time=2 ms"
-FEEDBACK = ("controller.pressure_feedback.gain=0.05 1/bar", "controller.pressure_feedback.corner=300 rad/s")
+FEEDBACK = ("actuator.control.pressure_feedback.gain=0.05 1/bar", "actuator.control.pressure_feedback.corner=300 rad/s")
 COMPENSATOR = (
-    "controller.compensator.frequency=834 rad/s",
-    "controller.compensator.damping=0.06",
-    "controller.compensator.new_damping=0.4",
+    "actuator.control.compensator.frequency=834 rad/s",
+    "actuator.control.compensator.damping=0.06",
+    "actuator.control.compensator.new_damping=0.4",
 )
 CHANNELS = ("front.bar.angle", "front.motor.pressure", "front.pump.stroke")
 MIRRORED = "manoeuvre.command.knots=[[0 s, -1 deg]]"
@@ -32,8 +32,8 @@ def samples(*settings: str) -> np.ndarray:
         for _ in range(300):
             mujoco.mj_step(simulation.model, data)
             world = view(data, simulation.rig.WORLD)
-            circuit = world.now.stabilizers.front.circuit
-            seen.append((float(world.later.stabilizers.front_stroke), float(circuit.angle), float(circuit.pressure)))
+            circuit = world.now.system.front.circuit
+            seen.append((float(world.later.system.front_stroke), float(circuit.angle), float(circuit.pressure)))
     return np.array(seen[::2])
 
 
@@ -81,7 +81,7 @@ def test_another_call_at_the_same_time_changes_nothing():
 
 
 def _gain(gain: str) -> str:
-    return f"controller.pressure_feedback.gain={gain}"
+    return f"actuator.control.pressure_feedback.gain={gain}"
 
 
 @pytest.mark.parametrize(

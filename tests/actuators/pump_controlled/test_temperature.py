@@ -1,11 +1,11 @@
 """Temperature: what an oil that is not at 50 degC changes in the parameters, and what it must not."""
 
 import pytest
+from ars_mujoco.actuators.actuator import Actuator
 from detailed import drive
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ars_mujoco.actuators.actuator import Actuator
 from ars_mujoco.actuators.pump_controlled.temperature import THICKER, THINNER, at_temperature
 from ars_mujoco.hydraulics.oil import fluid, viscosity_ratio
 from ars_mujoco.schema.document import read

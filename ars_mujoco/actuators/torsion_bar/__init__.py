@@ -1,0 +1,1 @@
+"""Torsion bar: a bar without an actuator in it."""

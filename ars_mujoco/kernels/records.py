@@ -1,0 +1,109 @@
+"""Records and tuples of numbers: what kernels do with them item by item, written out for their items while compiling.
+
+The functions take tuples and records of any length. Interpreted they are what they say; for numba each is written for
+the very types, one expression an item, so that no loop and no index is left in the machine code.
+"""
+
+from numba import types
+
+from ars_mujoco.kernels.kernel import specialized
+
+
+def along(state, rates, h):
+    """Every number of the tuple `state`, `h` along its rate."""
+    return tuple([x + h * rate for x, rate in zip(state, rates, strict=True)])
+
+
+def weighted(state, k1, k2, k3, k4, h):
+    """`state` after a step `h` with the rates of the four stages of the classical Runge-Kutta method."""
+    w = h / 6.0
+    return tuple([x + w * (a + 2.0 * (b + c) + d) for x, a, b, c, d in zip(state, k1, k2, k3, k4, strict=True)])
+
+
+def zeros(like):
+    """As many zeros as the tuple `like` has numbers."""
+    return tuple([0.0 for _ in like])
+
+
+def numbers(record):
+    """All numbers of a record, blocks in it included, in their order."""
+    flat = []
+    for name in record.dtype.names:
+        part = record[name]
+        flat += numbers(part) if getattr(part, "dtype", None) is not None and part.dtype.names else [float(part)]
+    return tuple(flat)
+
+
+def store(record, values) -> None:
+    """Write as many numbers as a record has, blocks in it included."""
+    for (block, name), value in zip(_places(record), values, strict=True):
+        block[name] = value
+
+
+def share(target, source) -> None:
+    """Write every number of `source` that the record `target` has a field for."""
+    for name in target.dtype.names:
+        if name in source.dtype.names:
+            target[name] = source[name]
+
+
+def _places(record):
+    for name in record.dtype.names:
+        part = record[name]
+        if getattr(part, "dtype", None) is not None and part.dtype.names:
+            yield from _places(part)
+        else:
+            yield record, name
+
+
+@specialized(along)
+def _along(state, rates, h):
+    return _giving("state, rates, h", [f"state[{i}] + h * rates[{i}]" for i in range(len(state))])
+
+
+@specialized(weighted)
+def _weighted(state, k1, k2, k3, k4, h):
+    each = [f"state[{i}] + h / 6.0 * (k1[{i}] + 2.0 * (k2[{i}] + k3[{i}]) + k4[{i}])" for i in range(len(state))]
+    return _giving("state, k1, k2, k3, k4, h", each)
+
+
+@specialized(zeros)
+def _zeros(like):
+    return _giving("like", ["0.0"] * len(like))
+
+
+@specialized(numbers)
+def _numbers(record):
+    return _giving("record", [f"record.{name}" for name in _names(record)])
+
+
+@specialized(store)
+def _store(record, values):
+    return _doing("record, values", [f"record.{name} = values[{i}]" for i, name in enumerate(_names(record))])
+
+
+@specialized(share)
+def _share(target, source):
+    both = [name for name in target.fields if name in source.fields]
+    return _doing("target, source", [f"target.{name} = source.{name}" for name in both])
+
+
+def _names(record: types.Record, prefix: str = "") -> list[str]:
+    """Dotted names of all numbers of a record type."""
+    found = []
+    for name, field in record.fields.items():
+        inner = field.type
+        found += _names(inner, f"{prefix}{name}.") if isinstance(inner, types.Record) else [prefix + name]
+    return found
+
+
+def _giving(arguments: str, items: list[str]):
+    """A function of `arguments` that returns the tuple of `items`."""
+    return _doing(arguments, [f"return ({''.join(f'{item}, ' for item in items)})"])
+
+
+def _doing(arguments: str, lines: list[str]):
+    """A function of `arguments` that runs `lines`."""
+    scope: dict = {}
+    exec("\n    ".join([f"def written({arguments}):", "pass", *lines]), scope)
+    return scope["written"]
