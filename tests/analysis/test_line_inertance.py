@@ -125,7 +125,11 @@ def test_on_the_bench_a_gain_between_is_stable_without_the_oil_s_mass_and_swings
         "title: Step\ndescription: One degree.\nrig: bench\nduration: 1.5 s\n"
         "manoeuvre: {kind: bar_command, command: {join: step, knots: [[0 s, 1 deg]]}}\n"
     )
-    rear = ("actuator=pump_controlled_full", "actuator.front.pipe.length=5.98 m", "actuator.control.loop.gain=141 1/rad")
+    rear = (
+        "actuator=pump_controlled_full",
+        "actuator.front.pipe.length=5.98 m",
+        "actuator.control.loop.gain=141 1/rad",
+    )
     light = ("actuator.front.oil.density=0.86 kg/m^3", "actuator.front.oil.viscosity_40=32e3 mm^2/s",
              "actuator.front.oil.viscosity_100=5.4e3 mm^2/s")  # fmt: skip
     swings = {}

@@ -59,12 +59,16 @@ def test_an_input_is_in_si_and_begins_at_its_start(form):
 def test_interpreted_and_compiled_agree(t, name):
     form = ExcitationOf("m")(**FORMS[name])
     record, samples = form.record(), form.samples()
-    assert getattr(value, "py_func", value)(record, samples, t) == pytest.approx(value(record, samples, t), rel=1e-12, abs=1e-12)
+    assert getattr(value, "py_func", value)(record, samples, t) == pytest.approx(
+        value(record, samples, t), rel=1e-12, abs=1e-12
+    )
 
 
 def test_a_step_is_knots_joined_by_a_step():
     command = manoeuvre(cycle="bench_step_1deg").command
-    assert [value(command.record(), command.samples(), t) for t in (0.0, 0.3, 9.0)] == pytest.approx([np.radians(1.0)] * 3)
+    assert [value(command.record(), command.samples(), t) for t in (0.0, 0.3, 9.0)] == pytest.approx(
+        [np.radians(1.0)] * 3
+    )
 
 
 SINE = "manoeuvre.command.sine"

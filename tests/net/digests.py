@@ -53,7 +53,11 @@ def cases():
 
 
 FLOW = tuple(f"actuator.{axle}.swash_plate.stop=flow" for axle in ("front", "rear"))
-FIXED = (*FLOW, "actuator.control.loop.gain=60 1/rad", "actuator.control.loop.schedule=0")  # the bench's loop, once its own
+FIXED = (
+    *FLOW,
+    "actuator.control.loop.gain=60 1/rad",
+    "actuator.control.loop.schedule=0",
+)  # the bench's loop, once its own
 
 
 def today(cycle: str, actuator: str | None, settings: tuple[str, ...]) -> tuple[str | None, tuple[str, ...]]:

@@ -122,5 +122,7 @@ def test_leakage_leaves_the_steady_state_error_of_the_closed_form(leakage, rpm, 
     parameters = VerificationSet(k=leakage, n=rpm / 60)
     a = leakage * STIFFNESS / parameters.D**2
     K_v = gain * parameters.V_p * parameters.n / parameters.D
-    recording = drive("bench_step_1deg", "duration=3 s", f"actuator.control.loop.schedule={schedule}", *settings(parameters))
+    recording = drive(
+        "bench_step_1deg", "duration=3 s", f"actuator.control.loop.schedule={schedule}", *settings(parameters)
+    )
     assert 1.0 - np.degrees(recording["front.bar.angle"][-1]) == pytest.approx(a / (a + K_v), rel=1e-5)

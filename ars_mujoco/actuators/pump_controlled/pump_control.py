@@ -27,7 +27,7 @@ from ars_mujoco.hydraulics.metering_edge import (
     supply_power,
 )
 from ars_mujoco.hydraulics.servo_valve import spool_acceleration
-from ars_mujoco.hydraulics.swash_plate import stroke_rate
+from ars_mujoco.hydraulics.swash_plate import held, stroke_rate
 from ars_mujoco.kernels.kernel import kernel
 
 THIRD_ORDER, REDUCED, FULL = 0.0, 1.0, 2.0
@@ -61,7 +61,7 @@ def control_power(circuit, detail, state) -> float:
 def stroke_speed(circuit, detail, state) -> float:
     """Rate of the pump stroke (1/s)."""
     if detail.stage == THIRD_ORDER:
-        return stroke_rate(circuit.swash_plate, state[0], state[4])
+        return stroke_rate(circuit.swash_plate, state[0])
     return state[5] / circuit.control_cylinder.travel
 
 
@@ -154,7 +154,7 @@ def _third_order_step(circuit, state, command, h):
         state[1] + w * (k1[1] + 2.0 * (k2[1] + k3[1]) + k4[1]),
         state[2],
         state[3],
-        state[4] + w * (k1[2] + 2.0 * (k2[2] + k3[2]) + k4[2]),
+        held(circuit.swash_plate, state[4] + w * (k1[2] + 2.0 * (k2[2] + k3[2]) + k4[2])),
         state[5],
     )
 
@@ -164,7 +164,7 @@ def _third_order_rates(circuit, state, h, k, command):
     spool, spool_rate, stroke = state[0] + h * k[0], state[1] + h * k[1], state[4] + h * k[2]
     wanted = valve_command(circuit.swash_plate_loop, circuit.swash_plate, command, stroke)
     acceleration = spool_acceleration(circuit.servo_valve, spool, spool_rate, wanted)
-    return spool_rate, acceleration, stroke_rate(circuit.swash_plate, spool, stroke)
+    return spool_rate, acceleration, stroke_rate(circuit.swash_plate, spool)
 
 
 @kernel

@@ -17,7 +17,6 @@ from ars_mujoco.actuators.pump_controlled.full_plant import (
     A,
 )
 from ars_mujoco.actuators.pump_controlled.third_order_circuit import rates
-from ars_mujoco.hydraulics.swash_plate import CUSHION
 from ars_mujoco.kernels.kernel import entry
 from ars_mujoco.kernels.substeps import differences, fewest_substeps
 
@@ -29,13 +28,12 @@ def substeps(circuit, bar_stiffness: float, step: float) -> int:
     """The fewest substeps of a physics step (s) in which all that decays does decay, and oscillations are resolved.
 
     Looked at where the reduced circuit with its pump control is stiffest: at rest (the friction's rounding), moving,
-    over the relief valve's pressure, past the mechanical stop and in the swash plate's cushion. Raises InputError where too many are needed.
+    over the relief valve's pressure and past the mechanical stop. Raises InputError where too many are needed.
     """
-    states = np.zeros((5, 6))
+    states = np.zeros((4, 6))
     states[1, 5] = 1.0  # rad/s
     states[2, 3] = 1.1 * circuit.relief_valve.pressure
     states[3, 4] = 1.01 * circuit.motor.stop_angle
-    states[4, 0], states[4, 2] = 1.0, 1.0 - 0.5 * CUSHION
     return fewest_substeps(
         [differences(partial(_rates, circuit, bar_stiffness), state, NUDGES) for state in states], step
     )

@@ -20,7 +20,7 @@ from ars_mujoco.hydraulics.oil import Oil
 from ars_mujoco.hydraulics.pump import Pump, flow_loss, ideal_flow, torque_loss
 from ars_mujoco.hydraulics.relief_valve import ReliefValve, relief_flow
 from ars_mujoco.hydraulics.servo_valve import ServoValve, spool_acceleration
-from ars_mujoco.hydraulics.swash_plate import SwashPlate, stroke_rate
+from ars_mujoco.hydraulics.swash_plate import SwashPlate, held, stroke_rate
 from ars_mujoco.hydraulics.vane_motor import VaneMotor, friction_torque, stop_torque
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.saturation import saturate
@@ -95,7 +95,7 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     control = (
         spool_rate,
         spool_acceleration(circuit.servo_valve, spool, spool_rate, command),
-        stroke_rate(circuit.swash_plate, spool, stroke),
+        stroke_rate(circuit.swash_plate, spool),
     )
     return control + plant, powers
 
@@ -149,7 +149,7 @@ def advance(
         k2, p2 = _stage(circuit, bar_stiffness, demand, t + 0.5 * h, along(state, k1, 0.5 * h))
         k3, p3 = _stage(circuit, bar_stiffness, demand, t + 0.5 * h, along(state, k2, 0.5 * h))
         k4, p4 = _stage(circuit, bar_stiffness, demand, t + h, along(state, k3, h))
-        state, sums = _runge_kutta(state, k1, k2, k3, k4, h), _accumulate(sums, p1, p2, p3, p4)
+        state, sums = _runge_kutta(circuit, state, k1, k2, k3, k4, h), _accumulate(sums, p1, p2, p3, p4)
     return _write(circuit, state, sums, later, energy_now, energy_later, step, count)
 
 
@@ -176,8 +176,8 @@ def advance_both(
         l3, q3 = _stage(r, r_stiffness, r_demand, t + 0.5 * h, along(r_state, l2, 0.5 * h))
         k4, p4 = _stage(f, f_stiffness, f_demand, t + h, along(f_state, k3, h))
         l4, q4 = _stage(r, r_stiffness, r_demand, t + h, along(r_state, l3, h))
-        f_state, f_sums = _runge_kutta(f_state, k1, k2, k3, k4, h), _accumulate(f_sums, p1, p2, p3, p4)
-        r_state, r_sums = _runge_kutta(r_state, l1, l2, l3, l4, h), _accumulate(r_sums, q1, q2, q3, q4)
+        f_state, f_sums = _runge_kutta(f, f_state, k1, k2, k3, k4, h), _accumulate(f_sums, p1, p2, p3, p4)
+        r_state, r_sums = _runge_kutta(r, r_state, l1, l2, l3, l4, h), _accumulate(r_sums, q1, q2, q3, q4)
     return (
         _write(f, f_state, f_sums, f_later, f_energy_now, f_energy_later, step, count),
         _write(r, r_state, r_sums, r_later, r_energy_now, r_energy_later, step, count),
@@ -223,12 +223,12 @@ def along(state, rate, h):
 
 
 @kernel
-def _runge_kutta(state, k1, k2, k3, k4, h):
+def _runge_kutta(circuit, state, k1, k2, k3, k4, h):
     w, d = h / 6.0, 2.0
     return (
         state[0] + w * (k1[0] + d * (k2[0] + k3[0]) + k4[0]),
         state[1] + w * (k1[1] + d * (k2[1] + k3[1]) + k4[1]),
-        state[2] + w * (k1[2] + d * (k2[2] + k3[2]) + k4[2]),
+        held(circuit.swash_plate, state[2] + w * (k1[2] + d * (k2[2] + k3[2]) + k4[2])),
         state[3] + w * (k1[3] + d * (k2[3] + k3[3]) + k4[3]),
         state[4] + w * (k1[4] + d * (k2[4] + k3[4]) + k4[4]),
         state[5] + w * (k1[5] + d * (k2[5] + k3[5]) + k4[5]),
