@@ -20,6 +20,7 @@ mega- = 1e6 = M-
 kilo- = 1e3 = k-
 centi- = 1e-2 = c-
 milli- = 1e-3 = m-
+micro- = 1e-6 = u- = µ-
 meter = [length] = m
 second = [time] = s
 kilogram = [mass] = kg
@@ -41,6 +42,12 @@ bar = 1e5 * pascal = bar
 joule = newton * meter = J
 watt = joule / second = W
 kelvin = [temperature] = K
+ampere = [current] = A
+volt = watt / ampere = V
+ohm = volt / ampere = ohm = Ω
+henry = volt * second / ampere = H
+farad = ampere * second / volt = F
+weber = volt * second = Wb
 degree_celsius = kelvin; offset: 273.15 = degC
 percent = 0.01 = %
 """.replace("pi", repr(math.pi))
@@ -50,7 +57,7 @@ SPELLINGS = (
     "m cm mm km s ms min h kg rad deg rev 1/rad 1/deg 1/m 1/s Hz rad/s deg/s rpm m/s km/h m/s^2 g rad/m deg/m deg/g "
     "N kN N/m kN/m N/mm Ns/m kNs/m Nm kNm J kJ Nm/rad Nm/deg kNm/rad Nms/rad Nms/deg kg*m^2 rad/s^2 "
     "Pa kPa MPa bar cm^3 L m^3 cm^3/rev cm^3/rad m^3/rad L/min m^3/s m^3/s/Pa m^3/Pa W kW 1 % "
-    "kg/m^3 m^2/s mm^2/s 1/Pa 1/bar K degC"
+    "kg/m^3 m^2/s mm^2/s 1/Pa 1/bar K degC A mA V mV ohm mohm H mH uH F mF uF V*s V*s/rad Nm/A W*s^2/rad^2"
 ).split()
 
 NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
