@@ -1,0 +1,178 @@
+"""Channels of both axles and their supply, what stands together in plots, and the moments worth a line."""
+
+from ars_mujoco.actuators.electro_hydrostatic.axle import AxleEnergy, AxleState
+from ars_mujoco.actuators.electro_hydrostatic.circuit import stored_energies
+from ars_mujoco.hydraulics.fixed_pump import fixed_pump_extrapolation
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.kernels.records import numbers, share
+from ars_mujoco.machines.standin import SupplyEnergy, SupplyOutput, SupplyState
+from ars_mujoco.schema.channels import channel, stored
+from ars_mujoco.schema.events import Condition
+from ars_mujoco.schema.parameters import Parameters
+from ars_mujoco.schema.plots import Plot, Tab, axles
+
+
+class State(Parameters):
+    """State of both axles and their supply."""
+
+    front: AxleState
+    rear: AxleState
+    supply: SupplyState
+
+
+class Energy(Parameters):
+    """Their energies since the start."""
+
+    front: AxleEnergy
+    rear: AxleEnergy
+    supply: SupplyEnergy
+
+
+class BarOutput(Parameters):
+    angle: float = channel("rad", "angle of the motor between the bar's halves")
+    command: float = channel("rad", "commanded angle")
+
+
+class MotorOutput(Parameters):
+    pressure: float = channel("Pa", "pressure difference across the motor")
+    pressure_a: float = channel("Pa", "absolute pressure in the chamber that drives to positive angle")
+    pressure_b: float = channel("Pa", "absolute pressure in the other chamber")
+    rate: float = channel("rad/s", "rate of the motor angle")
+    output_power: float = channel("W", "power of the motor on the bar")
+    leakage_power: float = channel("W", "lost to leakage in the motor")
+    friction_power: float = channel("W", "lost to friction in the motor")
+
+
+class PumpOutput(Parameters):
+    speed: float = channel("rad/s", "speed of the shaft")
+    flow: float = channel("m^3/s", "flow of the pump without its leakage")
+    loss_power: float = channel("W", "lost to the pump's torque loss")
+    leakage_power: float = channel("W", "lost to leakage in the pump")
+    extrapolation: float = channel(
+        "1", "how far the pump is outside the range of its losses, as a share of the range's end"
+    )
+
+
+class MachineOutput(Parameters):
+    torque: float = channel("Nm", "torque of the electric machine without its own losses")
+    current: float = channel("A", "current that makes torque, an amplitude")
+    power: float = channel("W", "power drawn from the supply, negative where it is given back")
+    copper_power: float = channel("W", "lost in the windings")
+
+
+class AccumulatorOutput(Parameters):
+    pressure: float = channel("Pa", "absolute pressure on the circuit's low side")
+
+
+class ReliefOutput(Parameters):
+    power: float = channel("W", "lost over the relief valves")
+
+
+class ValveOutput(Parameters):
+    bypass: float = channel("1", "opening of the bypass valve, shut where there is none")
+    fail_safe: float = channel("1", "opening of the fail-safe valve, open where there is none")
+
+
+class EnergyOutput(AxleEnergy):
+    oil: float = stored("in the oil's compression")
+    accumulator: float = stored("in the gas of the accumulator")
+    rotor: float = stored("in the inertia of machine and pump")
+    bar: float = stored("in the bar's torsion and the motor's mechanical stop")
+    inertia: float = stored("in the motor's inertia")
+
+
+class AxleOutput(Parameters):
+    """What one axle records."""
+
+    bar: BarOutput
+    motor: MotorOutput
+    pump: PumpOutput
+    machine: MachineOutput
+    accumulator: AccumulatorOutput
+    relief: ReliefOutput
+    valve: ValveOutput
+    energy: EnergyOutput
+
+
+class Output(Parameters):
+    """What both axles and their supply record."""
+
+    front: AxleOutput
+    rear: AxleOutput
+    supply: SupplyOutput
+
+
+PLOTS = (
+    Tab(
+        "bar",
+        (
+            Plot("bar angle", axles("bar.command", "bar.angle", "bar.twist")),
+            Plot("bar torque", axles("bar.torque")),
+            Plot("motor pressure", axles("motor.pressure")),
+        ),
+    ),
+    Tab(
+        "circuit",
+        (
+            Plot("front pressures", ("front.motor.pressure_a", "front.motor.pressure_b", "front.accumulator.pressure")),
+            Plot("rear pressures", ("rear.motor.pressure_a", "rear.motor.pressure_b", "rear.accumulator.pressure")),
+            Plot("valve openings", axles("valve.bypass", "valve.fail_safe")),
+        ),
+    ),
+    Tab(
+        "machine",
+        (
+            Plot("speed", axles("pump.speed")),
+            Plot("torque", axles("machine.torque")),
+            Plot("power", axles("machine.power")),
+        ),
+    ),
+    Tab(
+        "axle energy",
+        (
+            Plot("drawn", axles("energy.electrical", "energy.recovered")),
+            Plot("lost to oil", axles("energy.pump_leakage", "energy.motor_leakage", "energy.pump_torque_loss")),
+            Plot("lost to current", axles("energy.copper", "energy.iron", "energy.inverter")),
+        ),
+    ),
+)
+LOW = 1e5  # Pa, absolute: below it the low side draws air
+EVENTS = tuple(
+    condition
+    for axle in ("front", "rear")
+    for condition in (
+        Condition(f"{axle}.relief.power", "above", 0.0, "WARN", f"a {axle} relief valve opens"),
+        Condition(f"{axle}.motor.pressure_a", "below", LOW, "WARN", f"the {axle} chamber A runs dry"),
+        Condition(f"{axle}.motor.pressure_b", "below", LOW, "WARN", f"the {axle} chamber B runs dry"),
+        Condition(f"{axle}.pump.extrapolation", "above", 0.0, "WARN", f"the {axle} pump leaves its losses' range"),
+    )
+)
+
+
+@kernel
+def report(p, now, energy, out, command, twist, powers) -> None:
+    """What one axle records; `now` and `energy` are its AxleState and AxleEnergy, `powers` those of `axle_rates`."""
+    electrical, copper, _, _, _, pump_loss, pump_leak, motor_leak, relief, _, _, friction, motor, _, _ = powers
+    out.bar.angle, out.bar.command = now.angle, command.angle[0]
+    out.motor.pressure, out.motor.rate = now.motor_a - now.motor_b, now.rate
+    out.motor.pressure_a, out.motor.pressure_b = now.motor_a, now.motor_b
+    out.motor.output_power, out.motor.leakage_power, out.motor.friction_power = motor, motor_leak, friction
+    out.pump.speed, out.pump.flow = now.speed, p.circuit.pump.displacement * now.speed
+    out.pump.loss_power, out.pump.leakage_power = pump_loss, pump_leak
+    out.pump.extrapolation = fixed_pump_extrapolation(p.circuit.pump, now.speed, now.pump_a - now.pump_b)
+    out.machine.torque, out.machine.current = p.machine.torque_constant * now.current, now.current
+    out.machine.power, out.machine.copper_power = electrical, copper
+    out.accumulator.pressure, out.relief.power = now.accumulator, relief
+    out.valve.bypass, out.valve.fail_safe = now.bypass, now.fail_safe
+    share(out.energy, energy)
+    oil, gas, rotor, bar, inertia = stored_energies(p.circuit, p.stiffness, twist, numbers(now)[0:10])
+    out.energy.oil, out.energy.accumulator, out.energy.rotor = oil, gas, rotor
+    out.energy.bar, out.energy.inertia = bar, inertia
+
+
+@kernel
+def report_supply(supply, now, energy, out, powers) -> None:
+    """What the supply records; `powers` are those of `supply_rates`."""
+    out.voltage, out.power = now.voltage, powers[2]
+    share(out.energy, energy)
+    out.energy.store = 0.5 * supply.capacitance * now.voltage * now.voltage

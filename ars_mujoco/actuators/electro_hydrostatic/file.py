@@ -1,0 +1,48 @@
+"""File: what a user writes of an electro-hydrostatic bar, and how it becomes the records that the kernels read."""
+
+from typing import Literal
+
+from pydantic import model_validator
+
+from ars_mujoco.actuators.electro_hydrostatic.circuit import Circuit
+from ars_mujoco.actuators.electro_hydrostatic.control import Control
+from ars_mujoco.actuators.system import Torsion
+from ars_mujoco.machines.standin import Machine, Supply
+from ars_mujoco.schema.parameters import Parameters, fill
+
+AXLES = ("front", "rear")
+
+
+class Axle(Circuit):
+    """One axle's circuit and the machine that turns its pump."""
+
+    machine: Machine
+
+
+class ElectroHydrostatic(Parameters):
+    """The electro-hydrostatic active bar, front and rear, on one supply."""
+
+    kind: Literal["electro_hydrostatic"]
+    supply: Supply
+    control: Control
+    front: Axle
+    rear: Axle
+
+    @model_validator(mode="after")
+    def _relief_is_above_what_the_low_side_holds(self) -> "ElectroHydrostatic":
+        for name in AXLES:
+            axle = getattr(self, name)
+            if axle.check_valve.opening_pressure >= axle.accumulator.pressure:
+                raise ValueError(
+                    f"{name}.check_valve.opening_pressure is {1e-5 * axle.check_valve.opening_pressure:.4g} bar, which "
+                    f"the accumulator's {1e-5 * axle.accumulator.pressure:.4g} bar do not open; allowed: less than that"
+                )
+        return self
+
+
+def fill_axle(record, axle: Axle, control: Control, torsion: Torsion) -> None:
+    """Write one axle into a record of `axle.Axle`; `torsion` is what the car tells of its bar."""
+    record.stiffness = torsion.stiffness
+    fill(record.circuit, axle)
+    fill(record.machine, axle.machine)
+    fill(record.control, control)

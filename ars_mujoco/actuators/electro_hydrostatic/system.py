@@ -1,0 +1,154 @@
+"""Electro-hydrostatic: a pump of fixed displacement on an electric machine of its own and a vane motor between the
+halves of each bar, both machines on one 48 V supply of limited power (an EHA).
+
+    command ─> loops ─> machine ─ pump ═ lines ═ vane motor ─ bar        one axle, see `axle`
+                           |
+                  supply: both machines draw from one store
+
+Nothing runs while nothing is asked for; what is held costs the leakage that the pump makes up for, and the current that
+bears the load.
+"""
+
+import numpy as np
+
+from ars_mujoco.actuators.electro_hydrostatic.axle import POWERS, STATES, Axle, axle_rates
+from ars_mujoco.actuators.electro_hydrostatic.channels import EVENTS, PLOTS, Energy, Output, State, report, report_supply
+from ars_mujoco.actuators.electro_hydrostatic.file import AXLES, fill_axle
+from ars_mujoco.actuators.electro_hydrostatic.file import ElectroHydrostatic as File
+from ars_mujoco.actuators.system import Beyond, Car, Input
+from ars_mujoco.control.control_unit import BarCommand
+from ars_mujoco.kernels.integration import integrated
+from ars_mujoco.kernels.kernel import inlined, kernel
+from ars_mujoco.kernels.records import along, numbers, zeros
+from ars_mujoco.kernels.substeps import derivatives, fewest_substeps, scales, slopes
+from ars_mujoco.machines.standin import DRIVEN, SHORTED, Supply, shed, supply_rates
+from ars_mujoco.schema.parameters import fill as fill_block
+from ars_mujoco.schema.parameters import record_dtype
+
+NAME = "electro_hydrostatic"
+FOLLOWS = "torque"
+INPUTS = {
+    f"{axle}_{name}": each
+    for axle in ("front", "rear")
+    for name, each in {
+        "bypass": Input("1", 0.0, 0.0, 1.0),  # openings: 0 shut, 1 open
+        "fail_safe": Input("1", 1.0, 0.0, 1.0),
+        "phases": Input("1", DRIVEN, DRIVEN, SHORTED),
+    }.items()
+}
+PER_AXLE = 3
+BEYOND = Beyond("over 1000 bar, or far past its stop", ("front.motor.pressure", "rear.motor.pressure"))
+FAR_PRESSURE = 1000e5  # Pa
+FAR_ANGLE = 2.0  # of the motor's stop
+PRESSURES = ("pump_a", "pump_b", "motor_a", "motor_b", "accumulator", )
+IDLE = (BarCommand((0.0, 0.0, 0.0), 0.0), BarCommand((0.0, 0.0, 0.0), 0.0))
+RUNNING = ((0.0, 1.0), DRIVEN)  # openings of bypass and fail-safe valve, phases
+
+SUPPLY, SUPPLY_POWERS = 2 * STATES, 2 * POWERS  # where the supply's begin, after front and rear
+
+PARAMETERS = np.dtype(
+    [
+        ("front", record_dtype(Axle)),
+        ("rear", record_dtype(Axle)),
+        ("supply", record_dtype(Supply)),
+        ("has_rear", "f8"),  # 0 on the bench, where the rear stands still
+        ("substeps", "f8"),
+    ]
+)
+STATE = np.dtype([("state", record_dtype(State)), ("energy", record_dtype(Energy))])
+
+
+@inlined
+def rates(p, demand, t, state):
+    """Both axles and their supply, in the order of State and Energy, as `kernels.integration` takes them.
+
+    `demand` is (BarCommands, twists rad, (openings of bypass and fail-safe, phases)), each of front and rear.
+    """
+    commands, twists, ((front_openings, front_phases), (rear_openings, rear_phases)) = demand
+    voltage = state[SUPPLY]
+    bus = (voltage, shed(p.supply, voltage))
+    front, front_powers, front_torque = axle_rates(
+        p.front, commands[0], twists[0], front_openings, front_phases, bus, t, state[0:STATES]
+    )
+    rear, rear_powers, rear_torque = axle_rates(
+        p.rear, commands[1], twists[1], rear_openings, rear_phases, bus, t, state[STATES : SUPPLY]
+    )
+    rear, rear_powers = along(zeros(rear), rear, p.has_rear), along(zeros(rear_powers), rear_powers, p.has_rear)
+    supply, supply_powers = supply_rates(p.supply, voltage, front_powers[0] + rear_powers[0])
+    return (*front, *rear, *supply), (*front_powers, *rear_powers, *supply_powers), (front_torque, rear_torque)
+
+
+step_through, evaluate = integrated(rates), derivatives(rates)
+
+
+@kernel
+def advance(p, now, later, out, work, command, twists, moment):
+    """Both axles over the coming step, see `actuators.system`."""
+    inputs = command.inputs
+    asked = (((inputs[0], inputs[1]), inputs[2]), ((inputs[3], inputs[4]), inputs[5]))
+    commands = (command.front, command.rear)
+    _, powers, _ = rates(p, (commands, (twists.front.angle, twists.rear.angle), asked), 0.0, numbers(now.state))
+    report(p.front, now.state.front, now.energy.front, out.front, command.front, twists.front.angle, powers[0:POWERS])
+    report(p.rear, now.state.rear, now.energy.rear, out.rear, command.rear, twists.rear.angle, powers[POWERS:SUPPLY_POWERS])
+    report_supply(p.supply, now.state.supply, now.energy.supply, out.supply, powers[SUPPLY_POWERS:])
+    held = (twists.front.held, twists.rear.held)
+    return step_through(p, now, later, (commands, held, asked), moment.step, int(p.substeps))
+
+
+@kernel
+def sense(p, now, sensors) -> None:
+    """The motors' angles, and the bars' torques as the pressures at the pumps tell them."""
+    front, rear = now.state.front, now.state.rear
+    sensors.front_angle, sensors.rear_angle = front.angle, rear.angle
+    sensors.front_torque = p.front.circuit.motor.displacement * front.sensed
+    sensors.rear_torque = p.rear.circuit.motor.displacement * rear.sensed
+
+
+@kernel
+def is_beyond(p, state) -> bool:
+    """Whether a pressure or an angle has left all that is physical."""
+    return _is_beyond(p.front, state.state.front) or _is_beyond(p.rear, state.state.rear)
+
+
+@kernel
+def _is_beyond(p, state):
+    pressure = max(abs(state.motor_a), abs(state.motor_b), abs(state.pump_a), abs(state.pump_b))
+    return pressure > FAR_PRESSURE or abs(state.angle) > FAR_ANGLE * p.circuit.motor.stop_angle
+
+
+def fill(record, file: File, car: Car, step: float) -> None:
+    """Write the parameters; without a rear bar, as on the bench, the rear axle stands still and draws nothing."""
+    fill_axle(record.front, file.front, file.control, car.front)
+    fill_axle(record.rear, file.rear, file.control, car.rear or car.front)
+    fill_block(record.supply, file.supply)
+    record.has_rear = car.rear is not None
+    record.substeps = fewest_substeps(_slopes(record), step)
+
+
+def start(record, state) -> None:
+    """Write the state at rest: every pressure is the accumulator's, the store is full."""
+    for name in AXLES:
+        axle = state.state[name]
+        for pressure in PRESSURES:
+            axle[pressure] = record[name].circuit.accumulator.pressure
+        axle.fail_safe = 1.0
+    state.state.supply.voltage = record.supply.voltage
+
+
+def _slopes(record) -> list[np.ndarray]:
+    """Slopes of the equations (1/s) where they are stiffest, for the substeps: at rest, where all friction is rounded and
+    the valves flow laminar; in motion; over a relief valve's pressure; with open check valves; past the motor's stop.
+    """
+    demand = (IDLE, (0.0, 0.0), (RUNNING, RUNNING))
+    looks = np.zeros(6, STATE).view(np.recarray)
+    for look in looks:
+        start(record, look)
+    for name in AXLES:
+        circuit = record[name].circuit
+        resting, moving, relieved, drawn, stopped, bypassed = (look.state[name] for look in looks)
+        moving.speed, moving.rate = record[name].control.speed_limit, 1.0
+        relieved.pump_a += 1.1 * circuit.relief_valve.pressure
+        drawn.motor_a = drawn.motor_b = 0.0
+        stopped.angle = 1.01 * circuit.motor.stop_angle
+        bypassed.bypass = 1.0
+    return [slopes(evaluate, record, demand, look.state, scales(State)) for look in looks]
