@@ -1,4 +1,4 @@
-"""One axle: its loops, its electric machine and its circuit, as one set of equations of thirteen states."""
+"""One axle: its loops, its electric drive and its circuit, as one set of equations of thirteen states."""
 
 from ars_mujoco.actuators.electro_hydrostatic.circuit import Circuit, circuit_rates
 from ars_mujoco.actuators.electro_hydrostatic.control import (
@@ -9,8 +9,8 @@ from ars_mujoco.actuators.electro_hydrostatic.control import (
     torque_command,
 )
 from ars_mujoco.kernels.kernel import inlined
-from ars_mujoco.kernels.saturation import saturate
-from ars_mujoco.machines.standin import DRIVEN, Machine, current_rate, limit, losses
+from ars_mujoco.machines.electric_drive import ElectricDrive, current_rate
+from ars_mujoco.machines.electric_machine import drag, torque_constant
 from ars_mujoco.schema.channels import channel, counted, drawn, lost
 from ars_mujoco.schema.parameters import Parameters, quantity
 
@@ -20,7 +20,7 @@ class Axle(Parameters):
 
     stiffness: float = quantity("Nm/rad", ge=0)  # c, torsion of both halves of the bar in series
     circuit: Circuit
-    machine: Machine
+    drive: ElectricDrive
     control: Control
 
 
@@ -39,7 +39,7 @@ class AxleState(Parameters):
     rate: float = channel("rad/s", "its rate", scale=1e-6)
     sensed: float = channel("Pa", "pressure difference as its sensor shows it", scale=1e2)
     integral: float = channel("Nm", "integral of the speed loop", scale=1e-4)
-    current: float = channel("A", "current of the machine that makes torque, an amplitude", scale=1e-3)
+    current: float = channel("A", "torque current of the machine, an amplitude", scale=1e-3)
 
 
 class AxleEnergy(Parameters):
@@ -47,9 +47,8 @@ class AxleEnergy(Parameters):
 
     electrical: float = drawn("drawn from the supply, less what was given back")
     copper: float = lost("lost in the windings")
-    iron: float = lost("lost in the machine's iron and to windage")
     inverter: float = lost("lost in the inverter")
-    bearing: float = lost("lost to friction in the machine")
+    drag: float = lost("lost in the machine's iron, to windage and in its bearings")
     pump_torque_loss: float = lost("lost to the pump's torque loss")
     pump_leakage: float = lost("lost to leakage in the pump")
     motor_leakage: float = lost("lost to leakage in the motor")
@@ -66,39 +65,40 @@ STATES, POWERS = len(AxleState.model_fields), len(AxleEnergy.model_fields)
 
 
 @inlined
-def axle_rates(p, command, twist, openings, phases, bus, t, state):
-    """Derivatives of AxleState, powers (W) as AxleEnergy lists them, and the bar's torque (Nm), at `t` s in the step.
+def asked_of(p, command, twist, openings, voltage, t, state):
+    """(torque Nm, lag rad/s): what the loops ask of the drive at `t` s in the step, and by how much the pump's speed is
+    behind what they ask of it.
 
-    `command` is a BarCommand, `twist` (rad) that of the bar, `openings` those asked of the valves (bypass, fail-safe),
-    `phases` one of DRIVEN, OPEN, SHORTED; `bus` is (voltage V, share of its torque that the supply lets the machine have).
+    `command` is a BarCommand, `twist` (rad) that of the bar; `openings` are those asked of the valves (bypass,
+    fail-safe): against a shut valve, or round through an open one, nothing is pumped. `voltage` (V) is the supply's.
     """
-    sensed, integral, current = state[10:13]
-    speed, angle, over_pump = state[7], state[8], state[0] - state[1]
-    circuit, machine, control = p.circuit, p.machine, p.control
-    voltage, share = bus
-
+    circuit, control, speed, angle, sensed, integral = p.circuit, p.control, state[7], state[8], state[10], state[11]
     c0, c1, c2 = command.angle
     missing = missing_angle(control, p.stiffness, c0 + t * (c1 + t * c2), command.torque, angle, twist)
-    drives = openings[1] * (1.0 - openings[0])  # against a shut valve, or round through an open one, nothing is pumped
-    asked_speed = drives * speed_command(control, circuit, missing, sensed, voltage / machine.nominal_voltage)
-    behind = asked_speed - speed
-    asked = torque_command(control, circuit, behind, integral, sensed)
-    able = share * limit(machine, speed, voltage) if phases == DRIVEN else 0.0
-    given = saturate(asked, able)
+    pumps = openings[1] * (1.0 - openings[0])
+    behind = pumps * speed_command(control, circuit, missing, sensed, voltage) - speed
+    return torque_command(control, circuit, behind, integral, sensed), behind
 
-    torque = machine.torque_constant * current
-    copper, iron, inverter, bearing = losses(machine, current, speed, phases)
-    drag = iron / speed if speed != 0.0 else 0.0
-    oil_and_motion, powers, bar_torque = circuit_rates(
-        circuit, p.stiffness, twist, torque - bearing - drag, openings, state[0:10]
+
+@inlined
+def axle_rates(p, asked, current_granted, electric, twist, openings, state):
+    """Derivatives of AxleState, powers (W) as AxleEnergy lists them, and the bar's torque (Nm).
+
+    `asked` is what `asked_of` gives, `current_granted` (A) what the machine may have for it, `electric` the Running of
+    the drive.
+    """
+    (torque, behind), speed, sensed, drive = asked, state[7], state[10], p.drive
+    braking = drag(drive.machine, speed)
+    plant, powers, bar_torque = circuit_rates(
+        p.circuit, p.stiffness, twist, electric.torque - braking, openings, state[0:10]
     )
-    electrical, motor = torque * speed + copper + inverter, powers[7]
+    excess = torque - torque_constant(drive.machine) * current_granted
     derivatives = (
-        *oil_and_motion,
-        1.0 / control.pressure_lag * (over_pump - sensed),
-        integral_rate(control, circuit, behind, asked - given),
-        current_rate(machine, given, current, speed, phases),
+        *plant,
+        1.0 / p.control.pressure_lag * (state[0] - state[1] - sensed),
+        integral_rate(p.control, p.circuit, behind, excess),
+        current_rate(drive, state[12], current_granted),
     )
-    lost = (electrical, copper, iron, inverter, bearing * speed)
-    counted = (max(-electrical, 0.0), abs(electrical) + abs(motor))
-    return derivatives, (*lost, *powers, *counted), bar_torque
+    drawn, motor = electric.drawn, powers[7]
+    losses = (electric.copper, electric.inverter, braking * speed)
+    return derivatives, (drawn, *losses, *powers, max(-drawn, 0.0), abs(drawn) + abs(motor)), bar_torque

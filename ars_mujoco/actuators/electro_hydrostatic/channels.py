@@ -5,11 +5,27 @@ from ars_mujoco.actuators.electro_hydrostatic.circuit import stored_energies
 from ars_mujoco.hydraulics.fixed_pump import fixed_pump_extrapolation
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.records import numbers, share
-from ars_mujoco.machines.standin import SupplyEnergy, SupplyOutput, SupplyState
-from ars_mujoco.schema.channels import channel, stored
+from ars_mujoco.machines.electric_machine import torque_constant
+from ars_mujoco.machines.electric_supply import store_energy, terminal_voltage
+from ars_mujoco.schema.channels import channel, delivered, drawn, lost, stored
 from ars_mujoco.schema.events import Condition
 from ars_mujoco.schema.parameters import Parameters
 from ars_mujoco.schema.plots import Plot, Tab, axles
+
+
+class SupplyState(Parameters):
+    store: float = channel("V", "voltage of the store", scale=1e-4)
+    converter: float = channel("W", "power of the converter to the store", scale=1e-1)
+
+
+class SupplyEnergy(Parameters):
+    """Energies of the supply since the start, in the order of the powers of `supply_rates`."""
+
+    source: float = drawn("drawn from the source")
+    converter: float = lost("lost in the converter")
+    line: float = lost("lost in the line to the drives")
+    controllers: float = lost("drawn by control units")
+    drives: float = delivered("handed to both drives, less what they gave back")
 
 
 class State(Parameters):
@@ -54,8 +70,8 @@ class PumpOutput(Parameters):
 
 
 class MachineOutput(Parameters):
-    torque: float = channel("Nm", "torque of the electric machine without its own losses")
-    current: float = channel("A", "current that makes torque, an amplitude")
+    torque: float = channel("Nm", "torque of the electric machine without its drag")
+    current: float = channel("A", "torque current, an amplitude")
     power: float = channel("W", "power drawn from the supply, negative where it is given back")
     copper_power: float = channel("W", "lost in the windings")
 
@@ -94,6 +110,17 @@ class AxleOutput(Parameters):
     energy: EnergyOutput
 
 
+class SupplyEnergyOutput(SupplyEnergy):
+    store: float = stored("in the store, over what it has at its nominal voltage")
+
+
+class SupplyOutput(Parameters):
+    store: float = channel("V", "voltage of the store")
+    voltage: float = channel("V", "voltage at the drives")
+    power: float = channel("W", "power that both drives draw")
+    energy: SupplyEnergyOutput
+
+
 class Output(Parameters):
     """What both axles and their supply record."""
 
@@ -124,7 +151,7 @@ PLOTS = (
         (
             Plot("speed", axles("pump.speed")),
             Plot("torque", axles("machine.torque")),
-            Plot("power", axles("machine.power")),
+            Plot("power", (*axles("machine.power"), "supply.power")),
         ),
     ),
     Tab(
@@ -132,7 +159,7 @@ PLOTS = (
         (
             Plot("drawn", axles("energy.electrical", "energy.recovered")),
             Plot("lost to oil", axles("energy.pump_leakage", "energy.motor_leakage", "energy.pump_torque_loss")),
-            Plot("lost to current", axles("energy.copper", "energy.iron", "energy.inverter")),
+            Plot("lost to current", axles("energy.copper", "energy.inverter", "energy.drag")),
         ),
     ),
 )
@@ -150,9 +177,11 @@ EVENTS = tuple(
 
 
 @kernel
-def report(p, now, energy, out, command, twist, powers) -> None:
-    """What one axle records; `now` and `energy` are its AxleState and AxleEnergy, `powers` those of `axle_rates`."""
-    electrical, copper, _, _, _, pump_loss, pump_leak, motor_leak, relief, _, _, friction, motor, _, _ = powers
+def report(p, now, energy, out, command, twist, electric, powers) -> None:
+    """What one axle records: `now` and `energy` are its AxleState and AxleEnergy, `electric` is the Running of its drive,
+    `powers` (W) are in the order of AxleEnergy.
+    """
+    _, _, _, _, pump_loss, pump_leak, motor_leak, relief, _, _, friction, motor, _, _ = powers
     out.bar.angle, out.bar.command = now.angle, command.angle[0]
     out.motor.pressure, out.motor.rate = now.motor_a - now.motor_b, now.rate
     out.motor.pressure_a, out.motor.pressure_b = now.motor_a, now.motor_b
@@ -160,8 +189,8 @@ def report(p, now, energy, out, command, twist, powers) -> None:
     out.pump.speed, out.pump.flow = now.speed, p.circuit.pump.displacement * now.speed
     out.pump.loss_power, out.pump.leakage_power = pump_loss, pump_leak
     out.pump.extrapolation = fixed_pump_extrapolation(p.circuit.pump, now.speed, now.pump_a - now.pump_b)
-    out.machine.torque, out.machine.current = p.machine.torque_constant * now.current, now.current
-    out.machine.power, out.machine.copper_power = electrical, copper
+    out.machine.torque, out.machine.current = electric.torque, now.current
+    out.machine.power, out.machine.copper_power = electric.drawn, electric.copper
     out.accumulator.pressure, out.relief.power = now.accumulator, relief
     out.valve.bypass, out.valve.fail_safe = now.bypass, now.fail_safe
     share(out.energy, energy)
@@ -171,8 +200,8 @@ def report(p, now, energy, out, command, twist, powers) -> None:
 
 
 @kernel
-def report_supply(supply, now, energy, out, powers) -> None:
-    """What the supply records; `powers` are those of `supply_rates`."""
-    out.voltage, out.power = now.voltage, powers[2]
+def report_supply(supply, now, energy, out, load: float) -> None:
+    """What the supply records under a load (W)."""
+    out.store, out.voltage, out.power = now.store, terminal_voltage(supply, now.store, load), load
     share(out.energy, energy)
-    out.energy.store = 0.5 * supply.capacitance * now.voltage * now.voltage
+    out.energy.store = store_energy(supply, now.store)

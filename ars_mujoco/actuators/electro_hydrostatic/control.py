@@ -1,8 +1,8 @@
 """The loops of one axle: what torque its machine is asked for, so that the bar's torque or angle follows its command.
 
-    command ─> K D/D_p ─(+)─> limit ─> PI, 25 Hz ─(+)─> machine
-       ^                ^                          ^
-    phi, psi      k dp/D_p, leakage        T_ff = D_p dp, load          dp as its sensor shows it
+    command ─> K D/D_p ─(+)─> limit ─> PI ─(+)─> drive
+       ^                ^                   ^
+    phi, psi      k dp/D_p, leakage   D_p dp, load            dp as its sensor shows it
 
 Torque and angle are one loop: the bar's torque is c (phi - psi), so that a missing torque is a missing angle. Feeding
 the load forward takes the bar, a spring, off the rotor; what is left for the speed loop is the rotor's inertia alone,
@@ -23,7 +23,8 @@ class Control(Parameters):
 
     follow: float = choice("torque", "angle", default=TORQUE)
     gain: float = quantity("1/s", gt=0)  # K, rate of the bar's angle over its error
-    speed_limit: float = quantity("rad/s", gt=0)  # of the pump, at the machine's nominal voltage
+    speed_limit: float = quantity("rad/s", gt=0)  # of the pump, with the supply at
+    full_voltage: float = quantity("V", gt=0)  # and in proportion below it
     speed_bandwidth: float = quantity("rad/s", gt=0)  # of the speed loop
     integral_time: float = quantity("s", gt=0)  # of the same
     pressure_lag: float = quantity("s", gt=0)  # of the pressure sensor
@@ -38,13 +39,14 @@ def missing_angle(control, bar_stiffness, angle_command, torque_command, angle, 
 
 
 @kernel
-def speed_command(control, circuit, missing, sensed, voltage_share):
-    """Speed (rad/s) to ask of the pump where the bar's angle is `missing` (rad) behind and a pressure (Pa) `sensed`;
-    the limit goes with the share of its nominal voltage that the machine has, but no higher than 1.
+def speed_command(control, circuit, missing, sensed, voltage):
+    """Speed (rad/s) to ask of the pump where `missing` (rad) is the bar's angle behind its command and `sensed` (Pa) the
+    pressure that leaks; `voltage` (V) is the supply's.
     """
     pump, motor = circuit.pump, circuit.motor
     delivered = motor.displacement * control.gain * missing + (pump.leakage + motor.leakage) * sensed
-    return saturate(1.0 / pump.displacement * delivered, control.speed_limit * min(voltage_share, 1.0))
+    limit = control.speed_limit * min(1.0 / control.full_voltage * voltage, 1.0)
+    return saturate(1.0 / pump.displacement * delivered, limit)
 
 
 @kernel

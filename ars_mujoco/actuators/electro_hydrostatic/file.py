@@ -7,29 +7,30 @@ from pydantic import model_validator
 from ars_mujoco.actuators.electro_hydrostatic.circuit import Circuit
 from ars_mujoco.actuators.electro_hydrostatic.control import Control
 from ars_mujoco.actuators.system import Torsion
-from ars_mujoco.machines.standin import Machine, Supply
+from ars_mujoco.machines.electric_drive import ElectricDrive
+from ars_mujoco.machines.electric_supply import ElectricSupply
 from ars_mujoco.schema.parameters import Parameters, fill
 
 AXLES = ("front", "rear")
 
 
 class Axle(Circuit):
-    """One axle's circuit and the machine that turns its pump."""
+    """One axle's circuit, and the drive of its pump."""
 
-    machine: Machine
+    drive: ElectricDrive
 
 
 class ElectroHydrostatic(Parameters):
     """The electro-hydrostatic active bar, front and rear, on one supply."""
 
     kind: Literal["electro_hydrostatic"]
-    supply: Supply
+    supply: ElectricSupply
     control: Control
     front: Axle
     rear: Axle
 
     @model_validator(mode="after")
-    def _relief_is_above_what_the_low_side_holds(self) -> "ElectroHydrostatic":
+    def _low_side_is_fed(self) -> "ElectroHydrostatic":
         for name in AXLES:
             axle = getattr(self, name)
             if axle.check_valve.opening_pressure >= axle.accumulator.pressure:
@@ -44,5 +45,5 @@ def fill_axle(record, axle: Axle, control: Control, torsion: Torsion) -> None:
     """Write one axle into a record of `axle.Axle`; `torsion` is what the car tells of its bar."""
     record.stiffness = torsion.stiffness
     fill(record.circuit, axle)
-    fill(record.machine, axle.machine)
+    fill(record.drive, axle.drive)
     fill(record.control, control)

@@ -11,17 +11,17 @@ bears the load.
 
 import numpy as np
 
-from ars_mujoco.actuators.electro_hydrostatic.axle import POWERS, STATES, Axle, axle_rates
 from ars_mujoco.actuators.electro_hydrostatic.channels import EVENTS, PLOTS, Energy, Output, State, report, report_supply
+from ars_mujoco.actuators.electro_hydrostatic.equations import PARAMETERS, POWERS, SUPPLY_POWERS, Demand, electric, rates
 from ars_mujoco.actuators.electro_hydrostatic.file import AXLES, fill_axle
 from ars_mujoco.actuators.electro_hydrostatic.file import ElectroHydrostatic as File
 from ars_mujoco.actuators.system import Beyond, Car, Input
 from ars_mujoco.control.control_unit import BarCommand
 from ars_mujoco.kernels.integration import integrated
-from ars_mujoco.kernels.kernel import inlined, kernel
-from ars_mujoco.kernels.records import along, numbers, zeros
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.kernels.records import numbers
 from ars_mujoco.kernels.substeps import derivatives, fewest_substeps, scales, slopes
-from ars_mujoco.machines.standin import DRIVEN, SHORTED, Supply, shed, supply_rates
+from ars_mujoco.machines.electric_machine import DRIVEN, SHORTED
 from ars_mujoco.schema.parameters import fill as fill_block
 from ars_mujoco.schema.parameters import record_dtype
 
@@ -33,50 +33,16 @@ INPUTS = {
     for name, each in {
         "bypass": Input("1", 0.0, 0.0, 1.0),  # openings: 0 shut, 1 open
         "fail_safe": Input("1", 1.0, 0.0, 1.0),
-        "phases": Input("1", DRIVEN, DRIVEN, SHORTED),
+        "phases": Input("1", DRIVEN, SHORTED, DRIVEN),  # 1 driven, 0 open, -1 shorted
     }.items()
 }
-PER_AXLE = 3
 BEYOND = Beyond("over 1000 bar, or far past its stop", ("front.motor.pressure", "rear.motor.pressure"))
 FAR_PRESSURE = 1000e5  # Pa
 FAR_ANGLE = 2.0  # of the motor's stop
-PRESSURES = ("pump_a", "pump_b", "motor_a", "motor_b", "accumulator", )
-IDLE = (BarCommand((0.0, 0.0, 0.0), 0.0), BarCommand((0.0, 0.0, 0.0), 0.0))
-RUNNING = ((0.0, 1.0), DRIVEN)  # openings of bypass and fail-safe valve, phases
+PRESSURES = ("pump_a", "pump_b", "motor_a", "motor_b", "accumulator")
+IDLE = Demand(BarCommand((0.0, 0.0, 0.0), 0.0), 0.0, (0.0, 1.0), DRIVEN)
 
-SUPPLY, SUPPLY_POWERS = 2 * STATES, 2 * POWERS  # where the supply's begin, after front and rear
-
-PARAMETERS = np.dtype(
-    [
-        ("front", record_dtype(Axle)),
-        ("rear", record_dtype(Axle)),
-        ("supply", record_dtype(Supply)),
-        ("has_rear", "f8"),  # 0 on the bench, where the rear stands still
-        ("substeps", "f8"),
-    ]
-)
 STATE = np.dtype([("state", record_dtype(State)), ("energy", record_dtype(Energy))])
-
-
-@inlined
-def rates(p, demand, t, state):
-    """Both axles and their supply, in the order of State and Energy, as `kernels.integration` takes them.
-
-    `demand` is (BarCommands, twists rad, (openings of bypass and fail-safe, phases)), each of front and rear.
-    """
-    commands, twists, ((front_openings, front_phases), (rear_openings, rear_phases)) = demand
-    voltage = state[SUPPLY]
-    bus = (voltage, shed(p.supply, voltage))
-    front, front_powers, front_torque = axle_rates(
-        p.front, commands[0], twists[0], front_openings, front_phases, bus, t, state[0:STATES]
-    )
-    rear, rear_powers, rear_torque = axle_rates(
-        p.rear, commands[1], twists[1], rear_openings, rear_phases, bus, t, state[STATES : SUPPLY]
-    )
-    rear, rear_powers = along(zeros(rear), rear, p.has_rear), along(zeros(rear_powers), rear_powers, p.has_rear)
-    supply, supply_powers = supply_rates(p.supply, voltage, front_powers[0] + rear_powers[0])
-    return (*front, *rear, *supply), (*front_powers, *rear_powers, *supply_powers), (front_torque, rear_torque)
-
 
 step_through, evaluate = integrated(rates), derivatives(rates)
 
@@ -84,15 +50,28 @@ step_through, evaluate = integrated(rates), derivatives(rates)
 @kernel
 def advance(p, now, later, out, work, command, twists, moment):
     """Both axles over the coming step, see `actuators.system`."""
-    inputs = command.inputs
-    asked = (((inputs[0], inputs[1]), inputs[2]), ((inputs[3], inputs[4]), inputs[5]))
-    commands = (command.front, command.rear)
-    _, powers, _ = rates(p, (commands, (twists.front.angle, twists.rear.angle), asked), 0.0, numbers(now.state))
-    report(p.front, now.state.front, now.energy.front, out.front, command.front, twists.front.angle, powers[0:POWERS])
-    report(p.rear, now.state.rear, now.energy.rear, out.rear, command.rear, twists.rear.angle, powers[POWERS:SUPPLY_POWERS])
-    report_supply(p.supply, now.state.supply, now.energy.supply, out.supply, powers[SUPPLY_POWERS:])
-    held = (twists.front.held, twists.rear.held)
-    return step_through(p, now, later, (commands, held, asked), moment.step, int(p.substeps))
+    inputs, front, rear = command.inputs, twists.front, twists.rear
+    front_demand = Demand(command.front, front.angle, (inputs[0], inputs[1]), inputs[2])
+    rear_demand = Demand(command.rear, rear.angle, (inputs[3], inputs[4]), inputs[5])
+    _report(p, now, out, (front_demand, rear_demand))
+    held = (
+        Demand(command.front, front.held, front_demand.openings, front_demand.phases),
+        Demand(command.rear, rear.held, rear_demand.openings, rear_demand.phases),
+    )
+    return step_through(p, now, later, held, moment.step, int(p.substeps))
+
+
+@kernel
+def _report(p, now, out, demand):
+    # what a run records of the state now
+    front, rear = demand
+    state, energy, store = now.state, now.energy, now.state.supply.store
+    _, powers, _ = rates(p, demand, 0.0, numbers(state))
+    front_electric, rear_electric = electric(p.front, front, store, numbers(state.front)), electric(p.rear, rear, store, numbers(state.rear))
+    report(p.front, state.front, energy.front, out.front, front.command, front.twist, front_electric, powers[0:POWERS])
+    report(p.rear, state.rear, energy.rear, out.rear, rear.command, rear.twist, rear_electric, powers[POWERS:SUPPLY_POWERS])
+    load = powers[0] + powers[POWERS]
+    report_supply(p.supply, state.supply, energy.supply, out.supply, load)
 
 
 @kernel
@@ -132,14 +111,14 @@ def start(record, state) -> None:
         for pressure in PRESSURES:
             axle[pressure] = record[name].circuit.accumulator.pressure
         axle.fail_safe = 1.0
-    state.state.supply.voltage = record.supply.voltage
+    state.state.supply.store = record.supply.voltage
 
 
 def _slopes(record) -> list[np.ndarray]:
     """Slopes of the equations (1/s) where they are stiffest, for the substeps: at rest, where all friction is rounded and
     the valves flow laminar; in motion; over a relief valve's pressure; with open check valves; past the motor's stop.
     """
-    demand = (IDLE, (0.0, 0.0), (RUNNING, RUNNING))
+    demand = (IDLE, IDLE)
     looks = np.zeros(6, STATE).view(np.recarray)
     for look in looks:
         start(record, look)
