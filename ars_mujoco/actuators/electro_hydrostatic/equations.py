@@ -40,7 +40,10 @@ def rates(p, demand, t, state):
     """
     front_demand, rear_demand = demand
     front, rear, store = state[0:STATES], state[STATES:SUPPLY], state[SUPPLY]
-    front_electric, rear_electric = electric(p.front, front_demand, store, front), electric(p.rear, rear_demand, store, rear)
+    front_electric, rear_electric = (
+        electric(p.front, front_demand, store, front),
+        electric(p.rear, rear_demand, store, rear),
+    )
     load = front_electric.drawn + p.has_rear * rear_electric.drawn
     voltage = terminal_voltage(p.supply, store, load)
 

@@ -11,8 +11,23 @@ bears the load.
 
 import numpy as np
 
-from ars_mujoco.actuators.electro_hydrostatic.channels import EVENTS, PLOTS, Energy, Output, State, report, report_supply
-from ars_mujoco.actuators.electro_hydrostatic.equations import PARAMETERS, POWERS, SUPPLY_POWERS, Demand, electric, rates
+from ars_mujoco.actuators.electro_hydrostatic.channels import (
+    EVENTS,
+    PLOTS,
+    Energy,
+    Output,
+    State,
+    report,
+    report_supply,
+)
+from ars_mujoco.actuators.electro_hydrostatic.equations import (
+    PARAMETERS,
+    POWERS,
+    SUPPLY_POWERS,
+    Demand,
+    electric,
+    rates,
+)
 from ars_mujoco.actuators.electro_hydrostatic.file import AXLES, fill_axle
 from ars_mujoco.actuators.electro_hydrostatic.file import ElectroHydrostatic as File
 from ars_mujoco.actuators.system import Beyond, Car, Input
@@ -67,9 +82,14 @@ def _report(p, now, out, demand):
     front, rear = demand
     state, energy, store = now.state, now.energy, now.state.supply.store
     _, powers, _ = rates(p, demand, 0.0, numbers(state))
-    front_electric, rear_electric = electric(p.front, front, store, numbers(state.front)), electric(p.rear, rear, store, numbers(state.rear))
+    front_electric, rear_electric = (
+        electric(p.front, front, store, numbers(state.front)),
+        electric(p.rear, rear, store, numbers(state.rear)),
+    )
     report(p.front, state.front, energy.front, out.front, front.command, front.twist, front_electric, powers[0:POWERS])
-    report(p.rear, state.rear, energy.rear, out.rear, rear.command, rear.twist, rear_electric, powers[POWERS:SUPPLY_POWERS])
+    report(
+        p.rear, state.rear, energy.rear, out.rear, rear.command, rear.twist, rear_electric, powers[POWERS:SUPPLY_POWERS]
+    )
     load = powers[0] + powers[POWERS]
     report_supply(p.supply, state.supply, energy.supply, out.supply, load)
 
