@@ -40,8 +40,8 @@ Running = namedtuple("Running", "torque drawn copper inverter")
 
 @kernel
 def wish(drive, torque: float, speed: float, voltage: float, phases: float):
-    """The Wish for a torque (Nm), within what current and voltage (V) allow at a speed (rad/s); none without phases that
-    are driven.
+    """The Wish for a torque (Nm), within what current and voltage (V) allow at a speed (rad/s); none where the phases
+    are not driven.
     """
     if phases != DRIVEN:
         return Wish(0.0, 0.0)
@@ -54,8 +54,8 @@ def wish(drive, torque: float, speed: float, voltage: float, phases: float):
 
 @kernel
 def power_share(budget: float, front: float, rear: float) -> float:
-    """The share of the powers (W) they wish for that two drives get, so that both together stay within a budget (W); one
-    that gives power back adds to it.
+    """The share of the powers (W) they wish for that two drives get, so that both stay within a budget (W); one that
+    gives power back adds to it.
     """
     taken = max(front, 0.0) + max(rear, 0.0)
     given = max(-front, 0.0) + max(-rear, 0.0)

@@ -1,1 +1,1 @@
-"""Electro-hydrostatic: a fixed pump on an electric machine of its own and a vane motor between the halves of each bar."""
+"""Electro-hydrostatic: a fixed pump on a machine of its own and a vane motor between the halves of each bar."""

@@ -5,7 +5,6 @@ from ars_mujoco.actuators.electro_hydrostatic.circuit import stored_energies
 from ars_mujoco.hydraulics.fixed_pump import fixed_pump_extrapolation
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.records import numbers, share
-from ars_mujoco.machines.electric_machine import torque_constant
 from ars_mujoco.machines.electric_supply import store_energy, terminal_voltage
 from ars_mujoco.schema.channels import channel, delivered, drawn, lost, stored
 from ars_mujoco.schema.events import Condition
@@ -178,8 +177,10 @@ EVENTS = tuple(
 
 @kernel
 def report(p, now, energy, out, command, twist, electric, powers) -> None:
-    """What one axle records: `now` and `energy` are its AxleState and AxleEnergy, `electric` is the Running of its drive,
-    `powers` (W) are in the order of AxleEnergy.
+    """What one axle records.
+
+    `now` and `energy` are its AxleState and AxleEnergy, `electric` is the Running of its drive, `powers` (W) are in the
+    order of AxleEnergy.
     """
     _, _, _, _, pump_loss, pump_leak, motor_leak, relief, _, _, friction, motor, _, _ = powers
     out.bar.angle, out.bar.command = now.angle, command.angle[0]

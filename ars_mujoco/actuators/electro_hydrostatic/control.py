@@ -40,8 +40,8 @@ def missing_angle(control, bar_stiffness, angle_command, torque_command, angle, 
 
 @kernel
 def speed_command(control, circuit, missing, sensed, voltage):
-    """Speed (rad/s) to ask of the pump where `missing` (rad) is the bar's angle behind its command and `sensed` (Pa) the
-    pressure that leaks; `voltage` (V) is the supply's.
+    """Speed (rad/s) to ask of the pump: `missing` (rad) is by how much the bar's angle is behind its command, `sensed`
+    (Pa) the pressure that leaks, `voltage` (V) the supply's.
     """
     pump, motor = circuit.pump, circuit.motor
     delivered = motor.displacement * control.gain * missing + (pump.leakage + motor.leakage) * sensed

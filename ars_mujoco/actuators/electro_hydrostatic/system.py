@@ -54,6 +54,7 @@ INPUTS = {
 BEYOND = Beyond("over 1000 bar, or far past its stop", ("front.motor.pressure", "rear.motor.pressure"))
 FAR_PRESSURE = 1000e5  # Pa
 FAR_ANGLE = 2.0  # of the motor's stop
+FINER = 2  # times the substeps, so that the small loss over a fail-safe valve, whose mode is fast, is right as well
 PRESSURES = ("pump_a", "pump_b", "motor_a", "motor_b", "accumulator")
 IDLE = Demand(BarCommand((0.0, 0.0, 0.0), 0.0), 0.0, (0.0, 1.0), DRIVEN)
 
@@ -121,7 +122,8 @@ def fill(record, file: File, car: Car, step: float) -> None:
     fill_axle(record.rear, file.rear, file.control, car.rear or car.front)
     fill_block(record.supply, file.supply)
     record.has_rear = car.rear is not None
-    record.substeps = fewest_substeps(_slopes(record), step)
+    has_fail_safe = any(getattr(file, axle).fail_safe_valve for axle in AXLES)
+    record.substeps = (FINER if has_fail_safe else 1) * fewest_substeps(_slopes(record), step)
 
 
 def start(record, state) -> None:
@@ -135,8 +137,10 @@ def start(record, state) -> None:
 
 
 def _slopes(record) -> list[np.ndarray]:
-    """Slopes of the equations (1/s) where they are stiffest, for the substeps: at rest, where all friction is rounded and
-    the valves flow laminar; in motion; over a relief valve's pressure; with open check valves; past the motor's stop.
+    """Slopes of the equations (1/s) where they are stiffest, for the substeps.
+
+    At rest, where friction is rounded and the valves flow laminar; in motion; over a relief valve's pressure; with open
+    check valves; past the motor's stop; with an open bypass valve.
     """
     demand = (IDLE, IDLE)
     looks = np.zeros(6, STATE).view(np.recarray)

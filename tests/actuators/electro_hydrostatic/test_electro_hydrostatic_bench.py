@@ -1,8 +1,8 @@
-"""On the bench: how fast it is, what holding costs, and what an S-curve takes (figures of `reference/systems.md`, 3.4)."""
+"""On the bench: how fast it is, what holding costs, what an S-curve takes (figures of `reference/systems.md`, 3.4)."""
 
 import numpy as np
 import pytest
-from eha_runs import C_H, D, D_P, RATIO, RPM, STIFFNESS, WORN, bench_run, ramp_to, step_to
+from eha_runs import C_H, D_P, RATIO, RPM, STIFFNESS, WORN, D, bench_run, ramp_to, step_to
 from shipped import recording
 
 WORN_S_CURVE = tuple(f"actuator.{each}" for each in WORN)
@@ -28,7 +28,7 @@ def test_at_its_speed_limit_the_pump_turns_the_bar_65_deg_a_second_less_what_the
     assert run["front.motor.rate"][middle] == pytest.approx(flow / D / stiff, rel=0.005)
 
 
-def test_to_hold_600_Nm_it_creeps_at_96_rpm_and_takes_52_W():
+def test_holding_600_it_creeps_at_96_rpm_and_takes_52_watts():
     run = bench_run(ramp_to(600), 8.0)
     assert run["front.pump.speed"][-1] / RPM == pytest.approx(96.0, rel=0.01)
     assert run["front.machine.power"][-1] == pytest.approx(52.0, rel=0.15)
@@ -56,6 +56,6 @@ def test_the_least_that_an_s_curve_can_take_is_what_leaks(settings, leakage):
     assert leaked < run["front.energy.electrical"][-1] - run["front.energy.bar"][-1]
 
 
-def test_it_feeds_80_W_back_at_most_as_the_bar_drives_it_on_an_s_curve():
+def test_it_feeds_80_watts_back_at_most_as_the_bar_drives_it_on_an_s_curve():
     run = recording("bench_s_curve", "electro_hydrostatic")
     assert -run["front.machine.power"].min() == pytest.approx(80.0, rel=0.15)
