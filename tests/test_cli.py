@@ -12,7 +12,7 @@ import pytest
 import yaml
 from typer.testing import CliRunner
 
-from ars_mujoco.cli.app import app as cli
+from ars_mujoco.cli import app as cli
 from ars_mujoco.schema import library
 
 BENCH_CYCLE = """\
@@ -65,7 +65,7 @@ def test_every_listed_channel_has_a_unit_and_a_description(ars):
 
 
 def test_listing_does_not_load_what_it_does_not_need():
-    loaded = "import sys; from ars_mujoco import cli; cli._shipped(cli.Listing.CYCLES); print(*sys.modules)"
+    loaded = "import sys; from ars_mujoco.cli import app as cli; cli._shipped(cli.Listing.CYCLES); print(*sys.modules)"
     modules = subprocess.run([sys.executable, "-c", loaded], capture_output=True, text=True, check=True).stdout.split()
     assert not {"numba", "mujoco", "rerun", "pint", "pyarrow"} & set(modules)
 
@@ -253,8 +253,8 @@ def test_list_is_quick():
 
 
 def test_check_reports_a_cycle_that_diverges_and_goes_on(monkeypatch):
-    from ars_mujoco import study as studies
     from ars_mujoco.schema.errors import SimulationError
+    from ars_mujoco.studies import study as studies
 
     real = studies.study
 

@@ -98,7 +98,7 @@ def pair(part: Part) -> System:
 
 
 class BarEnergy(Parameters):
-    bar: float = stored("in the bar's torsion")
+    bar: float = stored("stored in the bar's torsion")
 
 
 class BarOutput(Parameters):

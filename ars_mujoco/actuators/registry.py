@@ -19,6 +19,7 @@ from ars_mujoco.schema.parameters import Parameters
 SYSTEMS = (
     "torsion_bar",
     "pump_controlled",
+    "electromechanical",
     "electro_hydrostatic",
 )
 

@@ -68,8 +68,10 @@ def granted(drive, wished, share: float, speed: float, voltage: float) -> float:
     if share == 1.0 or wished.power <= 0.0:
         return wished.current
     side = 1.0 if wished.current > 0.0 else -1.0
-    power = share * wished.power - inverter_loss(drive.inverter, voltage, abs(wished.current))
-    return side * min(current_within(drive.machine, side * speed, power), abs(wished.current))
+    standby = inverter_loss(drive.inverter, voltage, 0.0)
+    by_current = inverter_loss(drive.inverter, voltage, 1.0) - standby  # W/A
+    most = current_within(drive.machine, side * speed, by_current, share * wished.power - standby)
+    return side * min(most, abs(wished.current))
 
 
 @kernel

@@ -88,9 +88,11 @@ def _voltage_circle(machine, speed, supply):
 
 
 @kernel
-def current_within(machine, speed: float, power: float) -> float:
-    """The torque current (A, its size) at which a machine draws a power (W); `speed` (rad/s) is along its torque."""
-    work, heat = torque_constant(machine) * speed, 1.5 * machine.resistance
+def current_within(machine, speed: float, other: float, power: float) -> float:
+    """The torque current (A, its size) at which a machine draws a power (W), besides what it takes in proportion to the
+    current elsewhere, `other` (W/A); `speed` (rad/s) is along its torque.
+    """
+    work, heat = torque_constant(machine) * speed + other, 1.5 * machine.resistance
     return max(math.sqrt(work * work + 4.0 * heat * max(power, 0.0)) - work, 0.0) / (2.0 * heat)
 
 
@@ -108,5 +110,7 @@ def _end(machine, d, q, radius, limit):
     along = 0.5 * (limit * limit - radius * radius + square) / square
     across = math.sqrt(max(limit * limit / square - along * along, 0.0))
     meeting = along * side * q + across * abs(d)
-    weakest = side * q + math.sqrt(max(radius * radius - (least - d) * (least - d), 0.0))
-    return side * max(min(meeting, weakest), 0.0)
+    room = radius * radius - (least - d) * (least - d)
+    if room < 0.0 and d < least:  # so fast that no field current suffices: the machine can only be let go
+        return 0.0
+    return side * max(min(meeting, side * q + math.sqrt(max(room, 0.0))), 0.0)

@@ -33,9 +33,10 @@ class ElectricSupply(Parameters):
 
 @kernel
 def budget(supply, store: float) -> float:
-    """Power (W) that all loads together may take at a voltage (V) of the store."""
+    """Power (W) that all loads together may take at a voltage (V) of the store: what is left behind the line."""
     share = saturate((store - supply.least_voltage) / FADE, 1.0)
-    return supply.converter_power + supply.store_power * max(share, 0.0)
+    current = (supply.converter_power - supply.controller_power + supply.store_power * max(share, 0.0)) / store
+    return (store - supply.line_resistance * current) * current
 
 
 @kernel

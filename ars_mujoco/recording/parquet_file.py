@@ -14,7 +14,7 @@ TITLE = b"ars_mujoco:title"
 
 
 def write_parquet(path: Path, run: Recording) -> None:
-    """Write the channels of `run`; unit and description stand in each field's metadata."""
+    """Write the channels of `run`; unit, description and the role of an energy stand in each field's metadata."""
     channels = [TIME, *run.channels.values()]
     schema = pa.schema([_field(channel) for channel in channels], metadata={TITLE: run.title.encode()})
     columns = [pa.array(run.time), *(pa.array(column) for column in np.ascontiguousarray(run.values.T))]
@@ -23,7 +23,7 @@ def write_parquet(path: Path, run: Recording) -> None:
 
 
 def read_parquet(path: Path) -> Recording:
-    """The channels of a run written by `write_parquet`: its time, values and title; poses and events are not in it."""
+    """A run written by `write_parquet`: its title, channels, time and values; poses, tabs and events are not in it."""
     table = pq.read_table(path)
     channels = [_channel(field) for field in table.schema if field.name != TIME.name]
     return Recording(
@@ -36,8 +36,11 @@ def read_parquet(path: Path) -> Recording:
 
 def _field(channel: Channel) -> pa.Field:
     metadata = {"unit": channel.unit, "description": channel.description}
+    if channel.role:
+        metadata["role"] = channel.role
     return pa.field(channel.name, pa.float64(), nullable=False, metadata=metadata)
 
 
 def _channel(field: pa.Field) -> Channel:
-    return Channel(field.name, field.metadata[b"unit"].decode(), field.metadata[b"description"].decode())
+    told = {key.decode(): value.decode() for key, value in field.metadata.items()}
+    return Channel(field.name, told["unit"], told["description"], told.get("role"))

@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 
 from ars_mujoco.schema.channels import Channel
+from ars_mujoco.schema.plots import Tab
 
 GEOM_TYPES = {
     int(mujoco.mjtGeom.mjGEOM_SPHERE): "sphere",
@@ -45,6 +46,7 @@ class Event:
 class Recording:
     """A run, or a piece of one: a chunk is a shorter Recording.
 
+    `tabs` say which channels stand together when it is looked at, perhaps with others that this run does not have.
     `time` (n,) s; `values` (n, nchannel) SI, columns in the order of `channels`; `pose_time` (m,) s, some of `time`;
     `poses` (m, nbody, 7) world position m and quaternion wxyz, in the order of `bodies`.
     """
@@ -53,6 +55,7 @@ class Recording:
     channels: dict[str, Channel]
     bodies: list[str] = field(default_factory=list)
     scene: list[Geom] = field(default_factory=list)
+    tabs: tuple[Tab, ...] = ()
     inputs: dict = field(default_factory=dict)
     metrics: dict = field(default_factory=dict)
     time: np.ndarray = None

@@ -1,4 +1,11 @@
-"""summary.json: what was run, with which versions, and what came out."""
+"""summary.json: what was run, with which versions, and what came out.
+
+Versions of its schema:
+    1  metrics of a run's pumps
+    2  metrics of energies by their roles, for any actuator: `drawn_energy`, `lost_energy` and `peak_drawn_power` are
+       new; `recovered_energy` is read from what is drawn; `energy_audit_error` is relative to what crossed the borders
+       of each block, no longer to the throughput of shafts and motors; a run without pumps has no `shaft_energy`
+"""
 
 import hashlib
 import json
@@ -11,7 +18,7 @@ from typing import Any
 from ars_mujoco import __version__
 from ars_mujoco.recording.recording import Recording
 
-SCHEMA_VERSION = 1
+SCHEMA_VERSION = 2
 PACKAGES = ("mujoco-core", "numba", "numpy", "rerun-sdk", "pyarrow")
 
 

@@ -9,6 +9,7 @@ from ars_mujoco.control.control_unit import by_angle
 from ars_mujoco.excitation.excitation import EXCITATION, value
 from ars_mujoco.excitation.samples import SAMPLES
 from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.rigs.plots import BENCH
 from ars_mujoco.rigs.rig import Frame
 from ars_mujoco.schema.channels import channel
 from ars_mujoco.schema.parameters import Parameters
@@ -88,4 +89,4 @@ def parabola(command, samples, time: float, step: float):
     return first, (4.0 * middle - 3.0 * first - last) / step, 2.0 * (first - 2.0 * middle + last) / (step * step)
 
 
-FRAME = Frame("bench", PARAMETERS, [], Output, BenchOutput, step, tables=TABLES)
+FRAME = Frame("bench", PARAMETERS, [], Output, BenchOutput, step, plots=BENCH, tables=TABLES)

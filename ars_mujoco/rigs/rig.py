@@ -12,7 +12,7 @@ from types import FunctionType, ModuleType
 
 import numpy as np
 
-from ars_mujoco.actuators import bars
+from ars_mujoco.actuators import bar_plots, bars
 from ars_mujoco.actuators.system import NOTHING, completed, is_active
 from ars_mujoco.bridge.callback import SIGNATURE, fields, record_at, tables_address, world_address
 from ars_mujoco.bridge.world import layout_version, world_dtype
@@ -22,8 +22,11 @@ from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.excitation import knots
 from ars_mujoco.excitation.knots import SIGNAL
 from ars_mujoco.kernels.kernel import NativeCallback, entry
+from ars_mujoco.rigs.plots import RigPlots
 from ars_mujoco.schema.channels import Channel, channels
+from ars_mujoco.schema.events import Condition
 from ars_mujoco.schema.parameters import Parameters, record_dtype
+from ars_mujoco.schema.plots import Tab
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,8 @@ class Frame:
     sense: Callable | None = None
     act: Callable | None = None
     addresses: Callable | None = None  # model -> numbers of things in it, by name
+    plots: RigPlots = RigPlots()
+    events: tuple[Condition, ...] = ()
     tables: Sequence[tuple] = (("nothing", "f8"),)  # what is only read, and lies in the model
 
 
@@ -98,6 +103,16 @@ class Rig:
         """(nchannel,) where userdata holds them."""
         first = self.WORLD.fields["out"][1] // 8
         return np.array([first + i for i, each in enumerate(self._all_channels()) if self._is_recorded(each)])
+
+    @property
+    def tabs(self) -> tuple[Tab, ...]:
+        """What a recording shows: of the rig, of its bars and of the system."""
+        return self.frame.plots.around(bar_plots.PLOTS, self.system.PLOTS)
+
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """The moments that are worth a line."""
+        return (*self.frame.events, *self.system.EVENTS)
 
     def _all_channels(self) -> list[Channel]:
         return [each for block in self._blocks.values() for each in channels(block)]

@@ -11,6 +11,7 @@ from ars_mujoco.control import reference
 from ars_mujoco.control.reference import SensorOutput, commanded, own_reference, read_accelerometer
 from ars_mujoco.excitation.knots import SIGNAL, value
 from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.rigs.plots import ROLL_PLANE
 from ars_mujoco.rigs.rig import Frame
 from ars_mujoco.schema.channels import channel
 from ars_mujoco.schema.parameters import Parameters
@@ -112,4 +113,4 @@ def act(world, mj, tables, system) -> None:
     check_finite(world, front + rear + body.roll + body.roll_rate, mj.time)
 
 
-FRAME = Frame("roll_plane", PARAMETERS, STATE, Output, bars.Output, step, sense, act, addresses)
+FRAME = Frame("roll_plane", PARAMETERS, STATE, Output, bars.Output, step, sense, act, addresses, ROLL_PLANE)

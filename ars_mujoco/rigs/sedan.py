@@ -19,6 +19,7 @@ from ars_mujoco.control.reference import SensorOutput, commanded, own_reference,
 from ars_mujoco.driving.driver import Driver, DriverOutput, DriverState, drive, preview
 from ars_mujoco.excitation.knots import SIGNAL, slope, value
 from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.rigs.plots import SEDAN, SEDAN_EVENTS
 from ars_mujoco.rigs.rig import Frame
 from ars_mujoco.roads.bump import Bump, height_and_slope
 from ars_mujoco.schema.channels import channel
@@ -265,4 +266,4 @@ def _corner(p, settings, now, later, out, mj, rates, i, h):
     return fx + fy + fz
 
 
-FRAME = Frame("sedan", PARAMETERS, STATE, Output, bars.Output, step, sense, act, addresses)
+FRAME = Frame("sedan", PARAMETERS, STATE, Output, bars.Output, step, sense, act, addresses, SEDAN, SEDAN_EVENTS)

@@ -1,7 +1,7 @@
 """Channels: every recorded signal, with its dotted name, SI unit and meaning, declared once.
 
 A class of channels is at once the layout of the record that the kernels write each step and the list that recordings,
-tables and `ars list channels` show: the field `angle` of `bar` under the block `front` is the channel `front.bar.angle`.
+tables and `ars list channels` show: the field `angle` of `bar` in the block `front` is the channel `front.bar.angle`.
 
 An energy carries a role, so that a recording says itself how its books are kept. They close for every block (`front`,
 `rear`, and what both share, such as `supply`) on its own, each energy counted in J since the start:
@@ -24,7 +24,7 @@ ROLES = ("drawn", "lost", "stored", "done", "delivered", "counted")
 
 @dataclass(frozen=True)
 class Channel:
-    """One recorded signal: `name` dotted, `unit` SI, `description` in a few words; `role`, one of ROLES, of an energy."""
+    """One recorded signal: `name` dotted, `unit` SI, `description` in a few words, `role` of ROLES where an energy."""
 
     name: str
     unit: str

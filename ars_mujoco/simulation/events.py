@@ -1,61 +1,24 @@
-"""Events: moments of a run that are worth a line, found in its channels."""
+"""Events: the moments at which conditions on a run's channels begin to hold."""
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
 from ars_mujoco.recording.recording import Event, Recording
+from ars_mujoco.schema.events import Condition
 
-CORNERS = {"fl": "front left", "fr": "front right", "rl": "rear left", "rr": "rear right"}
-AXLES = ("front", "rear")
-FULL_STROKE = 0.999  # of the pump, from where it counts as saturated
 QUIET = 0.25  # s for which a condition must have been gone before it is told again
 
 
-@dataclass(frozen=True)
-class Condition:
-    """A condition on one channel, and what to say when it begins to hold."""
-
-    channel: str
-    holds: Callable[[np.ndarray], np.ndarray]
-    level: str
-    text: str
-
-
-CONDITIONS = (
-    *(
-        Condition(f"{corner}.tire.vertical_force", lambda force: force <= 0.0, "WARN", f"the {name} wheel lifts off")
-        for corner, name in CORNERS.items()
-    ),
-    *(
-        Condition(
-            f"{axle}.pump.stroke", lambda x: np.abs(x) >= FULL_STROKE, "INFO", f"the {axle} pump is at full stroke"
-        )
-        for axle in AXLES
-    ),
-    *(
-        Condition(
-            f"{axle}.pump.extrapolation", lambda x: x > 0.0, "WARN", f"the {axle} pump leaves the range of its losses"
-        )
-        for axle in AXLES
-    ),
-    *(
-        Condition(f"{axle}.relief.power", lambda power: power > 0.0, "WARN", f"the {axle} relief valve opens")
-        for axle in AXLES
-    ),
-)
-
-
 class Watch:
-    """Finds events chunk by chunk; a condition that flickers is told once."""
+    """Finds the events of `conditions` chunk by chunk; one that flickers is told once, one on no channel never."""
 
-    def __init__(self):
-        self._last_held = dict.fromkeys(CONDITIONS, -np.inf)  # s
+    def __init__(self, conditions: Iterable[Condition]):
+        self._last_held = dict.fromkeys(conditions, -np.inf)  # s
 
     def events(self, chunk: Recording) -> list[Event]:
         """The events that begin in `chunk`, in the order of time."""
-        found = [event for condition in CONDITIONS for event in self._onsets(condition, chunk)]
+        found = [event for condition in self._last_held for event in self._onsets(condition, chunk)]
         return sorted(found, key=lambda event: event.time)
 
     def _onsets(self, condition: Condition, chunk: Recording) -> Iterator[Event]:

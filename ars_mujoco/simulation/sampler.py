@@ -1,5 +1,7 @@
 """Sampler: steps the simulation and takes its samples, the channels at every step and the poses at every frame."""
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 
@@ -43,7 +45,4 @@ class Sampler:
     def _chunk(self, times, values, poses) -> Recording:
         framed = times[-self.taken % self.stride :: self.stride]
         self.taken += len(times)
-        return Recording(
-            self.empty.title, self.empty.channels, self.empty.bodies, self.empty.scene, self.empty.inputs,
-            time=times, values=values, pose_time=framed, poses=poses[: len(framed)],
-        )  # fmt: skip
+        return replace(self.empty, time=times, values=values, pose_time=framed, poses=poses[: len(framed)])

@@ -44,7 +44,7 @@ def simulate(simulation: Simulation, on_chunk: Callable[[Recording], None] | Non
     """
     model, data = simulation.model, simulation.start()
     steps, per_chunk = round(simulation.duration / model.opt.timestep), round(CHUNK / model.opt.timestep)
-    chunks, watch = [], Watch()
+    chunks, watch = [], Watch(simulation.rig.conditions)
     with installed(simulation.rig, model, data, simulation.law) as in_python:
         sampler = Sampler(simulation.rig, model, data, empty_recording(simulation), in_python)
         while sampler.taken <= steps:
@@ -59,13 +59,14 @@ def simulate(simulation: Simulation, on_chunk: Callable[[Recording], None] | Non
 
 
 def empty_recording(simulation: Simulation) -> Recording:
-    """A recording of `simulation` without samples: its channels, bodies, scene and inputs."""
+    """A recording of `simulation` without samples: its channels, bodies, scene, tabs and inputs."""
     model = simulation.model
     return Recording(
         title=simulation.title,
         channels=simulation.rig.channels,
         bodies=[model.body(i).name for i in range(model.nbody)],
         scene=scene_of(model),
+        tabs=simulation.rig.tabs,
         inputs=simulation.inputs,
     )
 

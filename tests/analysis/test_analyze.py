@@ -12,7 +12,7 @@ from ars_mujoco.analysis import compensators, frequency_response, hydraulic_pole
 from ars_mujoco.analysis.analyze import ANALYSES, left_out, read_analyzed
 from ars_mujoco.analysis.loop import loop_of
 from ars_mujoco.analysis.parameter_box import TABLE_2, grid
-from ars_mujoco.cli.app import app as cli
+from ars_mujoco.cli import app as cli
 from ars_mujoco.schema.errors import InputError
 
 

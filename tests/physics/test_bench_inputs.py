@@ -13,7 +13,8 @@ from ars_mujoco.analysis.frequency_response import measured
 from ars_mujoco.analysis.loop import loop_of
 from ars_mujoco.excitation.excitation import ExcitationOf, value
 from ars_mujoco.hydraulics.vane_motor import friction_torque
-from ars_mujoco.metrics.metric import Run, energy_audit_error
+from ars_mujoco.metrics.energy import energy_audit_error
+from ars_mujoco.metrics.metric import Run
 from ars_mujoco.rigs.bench import parabola
 from ars_mujoco.schema.errors import InputError
 from ars_mujoco.studies.inputs import read_inputs

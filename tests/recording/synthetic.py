@@ -12,12 +12,20 @@ import numpy as np
 import ars_mujoco
 from ars_mujoco.recording.recording import Event, Recording, scene_of
 from ars_mujoco.schema.channels import Channel
+from ars_mujoco.schema.plots import Plot, Tab, axles
 
 SEDAN = Path(str(files(ars_mujoco))).parent / "mjcf" / "sedan" / "sedan.xml"
 SPEED = 120 / 3.6
 STEP, FRAME = 0.001, 0.010
 RADIUS = 0.32
 CORNERS, AXLES = ("fl", "fr", "rl", "rr"), ("front", "rear")
+TABS = (
+    Tab("body", (Plot("roll", ("body.roll",)), Plot("yaw rate", ("body.yaw_rate",)))),
+    Tab("front axle", (Plot("bar angle", ("front.bar.command", "front.bar.angle", "front.bar.twist")),)),
+    Tab("energy", (Plot("power", axles("pump.shaft_power", "motor.output_power")),)),
+    Tab("tires", (Plot("tire vertical force", tuple(f"{corner}.tire.vertical_force" for corner in CORNERS)),)),
+)
+ROLES = {"shaft": "drawn", "recovered": "counted", "friction": "lost"}  # of some energies
 
 
 def s_curve(gradient: float = 0.10, duration: float = 24.0, title: str = "synthetic S-curve") -> Recording:
@@ -29,7 +37,8 @@ def s_curve(gradient: float = 0.10, duration: float = 24.0, title: str = "synthe
     frames = slice(None, None, round(FRAME / STEP))
     return Recording(
         title=title,
-        channels={name: Channel(name, unit, f"made-up {name}") for name, (unit, _) in signals.items()},
+        channels={name: _channel(name, unit) for name, (unit, _) in signals.items()},
+        tabs=TABS,
         time=time,
         values=np.column_stack([values for _, values in signals.values()]),
         bodies=[model.body(i).name for i in range(1, model.nbody)],
@@ -44,6 +53,10 @@ def s_curve(gradient: float = 0.10, duration: float = 24.0, title: str = "synthe
         inputs={"cycle": "s_curve", "actuators": {"front": "made up", "rear": "made up"}},
         metrics={"peak_roll": {"value": float(np.degrees(0.6 * gradient)), "unit": "deg"}},
     )
+
+
+def _channel(name: str, unit: str) -> Channel:
+    return Channel(name, unit, f"made-up {name}", ROLES.get(name.rpartition(".energy.")[2]))
 
 
 def _signals(time: np.ndarray, g: np.ndarray, gradient: float) -> dict[str, tuple[str, np.ndarray]]:

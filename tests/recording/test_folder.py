@@ -29,7 +29,7 @@ def test_the_summary_says_what_ran_and_what_came_out(run, tmp_path):
     folder.append(run)
     folder.finish(replace(run, metrics=metrics))
     summary = json.loads((tmp_path / "summary.json").read_text())
-    assert summary["schema_version"] == 1
+    assert summary["schema_version"] == 2
     assert summary["inputs"] == run.inputs
     assert len(summary["inputs_sha256"]) == 64
     assert summary["versions"].keys() >= {"ars_mujoco", "python", "mujoco-core", "rerun-sdk"}

@@ -15,6 +15,8 @@ def test_the_table_has_time_first_then_a_column_a_channel(run, tmp_path):
     metadata = table.schema.field("front.motor.pressure").metadata
     assert metadata[b"unit"] == b"Pa"
     assert metadata[b"description"] == b"made-up front.motor.pressure"
+    assert b"role" not in metadata
+    assert table.schema.field("front.energy.shaft").metadata[b"role"] == b"drawn"
 
 
 def test_reading_back_gives_the_same(run, tmp_path):

@@ -6,7 +6,7 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
-from ars_mujoco.cli.app import app as cli
+from ars_mujoco.cli import app as cli
 from ars_mujoco.reproduce import reproduce as command
 from ars_mujoco.reproduce.claim import Kind
 from ars_mujoco.schema.errors import InputError

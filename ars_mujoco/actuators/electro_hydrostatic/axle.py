@@ -57,48 +57,45 @@ class AxleEnergy(Parameters):
     valve: float = lost("lost over bypass and fail-safe valve")
     friction: float = lost("lost to friction in the motor")
     motor: float = counted("work of the motor on the bar")
-    recovered: float = counted("given back to the supply, as a positive number")
-    throughput: float = counted("integral of |electrical| + |motor| power")
 
 
 STATES, POWERS = len(AxleState.model_fields), len(AxleEnergy.model_fields)
 
 
 @inlined
-def asked_of(p, command, twist, openings, voltage, t, state):
+def asked_of(p, demand, voltage, t, state):
     """(torque Nm, lag rad/s): what the loops ask of the drive at `t` s in the step, and by how much the pump's speed is
     behind what they ask of it.
 
-    `command` is a BarCommand, `twist` (rad) that of the bar; `openings` are those asked of the valves (bypass,
-    fail-safe): against a shut valve, or round through an open one, nothing is pumped. `voltage` (V) is the supply's.
+    Against a shut fail-safe valve, or round through an open bypass valve, nothing is pumped. `demand` is a Demand,
+    `voltage` (V) the supply's.
     """
     circuit, control, speed, angle, sensed, integral = p.circuit, p.control, state[7], state[8], state[10], state[11]
+    command, (bypass, fail_safe) = demand.command, demand.openings
     c0, c1, c2 = command.angle
-    missing = missing_angle(control, p.stiffness, c0 + t * (c1 + t * c2), command.torque, angle, twist)
-    pumps = openings[1] * (1.0 - openings[0])
+    missing = missing_angle(control, p.stiffness, c0 + t * (c1 + t * c2), command.torque, angle, demand.twist)
+    pumps = fail_safe * (1.0 - bypass)
     behind = pumps * speed_command(control, circuit, missing, sensed, voltage) - speed
     return torque_command(control, circuit, behind, integral, sensed), behind
 
 
 @inlined
-def axle_rates(p, asked, current_granted, electric, twist, openings, state):
+def axle_rates(p, side, demand, state):
     """Derivatives of AxleState, powers (W) as AxleEnergy lists them, and the bar's torque (Nm).
 
-    `asked` is what `asked_of` gives, `current_granted` (A) what the machine may have for it, `electric` the Running of
-    the drive.
+    `side` has what `asked_of` gives as `asked`, the `current` (A) granted for it, and the Running of the drive as
+    `electric`; `demand` is a Demand.
     """
-    (torque, behind), speed, sensed, drive = asked, state[7], state[10], p.drive
+    (torque, behind), electric, speed, sensed, drive = side.asked, side.electric, state[7], state[10], p.drive
     braking = drag(drive.machine, speed)
     plant, powers, bar_torque = circuit_rates(
-        p.circuit, p.stiffness, twist, electric.torque - braking, openings, state[0:10]
+        p.circuit, p.stiffness, demand.twist, electric.torque - braking, demand.openings, state[0:10]
     )
-    excess = torque - torque_constant(drive.machine) * current_granted
+    excess = torque - torque_constant(drive.machine) * side.current
     derivatives = (
         *plant,
         1.0 / p.control.pressure_lag * (state[0] - state[1] - sensed),
         integral_rate(p.control, p.circuit, behind, excess),
-        current_rate(drive, state[12], current_granted),
+        current_rate(drive, state[12], side.current),
     )
-    drawn, motor = electric.drawn, powers[7]
-    losses = (electric.copper, electric.inverter, braking * speed)
-    return derivatives, (drawn, *losses, *powers, max(-drawn, 0.0), abs(drawn) + abs(motor)), bar_torque
+    return derivatives, (electric.drawn, electric.copper, electric.inverter, braking * speed, *powers), bar_torque

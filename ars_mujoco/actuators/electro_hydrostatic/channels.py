@@ -24,7 +24,7 @@ class SupplyEnergy(Parameters):
     converter: float = lost("lost in the converter")
     line: float = lost("lost in the line to the drives")
     controllers: float = lost("drawn by control units")
-    drives: float = delivered("handed to both drives, less what they gave back")
+    loads: float = delivered("delivered to both drives, less what they gave back")
 
 
 class State(Parameters):
@@ -73,6 +73,7 @@ class MachineOutput(Parameters):
     current: float = channel("A", "torque current, an amplitude")
     power: float = channel("W", "power drawn from the supply, negative where it is given back")
     copper_power: float = channel("W", "lost in the windings")
+    inverter_power: float = channel("W", "lost in the inverter")
 
 
 class AccumulatorOutput(Parameters):
@@ -114,9 +115,10 @@ class SupplyEnergyOutput(SupplyEnergy):
 
 
 class SupplyOutput(Parameters):
-    store: float = channel("V", "voltage of the store")
     voltage: float = channel("V", "voltage at the drives")
-    power: float = channel("W", "power that both drives draw")
+    power: float = channel("W", "power of the converter")
+    load: float = channel("W", "power of both drives together")
+    share: float = channel("1", "share that the drives get of the power they wish for")
     energy: SupplyEnergyOutput
 
 
@@ -128,62 +130,77 @@ class Output(Parameters):
     supply: SupplyOutput
 
 
+def _pressures(axle: str) -> Plot:
+    sides = ("motor.pressure_a", "motor.pressure_b", "accumulator.pressure")
+    return Plot(f"{axle} pressures", tuple(f"{axle}.{side}" for side in sides))
+
+
 PLOTS = (
-    Tab(
-        "bar",
-        (
-            Plot("bar angle", axles("bar.command", "bar.angle", "bar.twist")),
-            Plot("bar torque", axles("bar.torque")),
-            Plot("motor pressure", axles("motor.pressure")),
-        ),
-    ),
+    Tab("front axle", (Plot("motor pressure", ("front.motor.pressure",)),)),
+    Tab("rear axle", (Plot("motor pressure", ("rear.motor.pressure",)),)),
     Tab(
         "circuit",
         (
-            Plot("front pressures", ("front.motor.pressure_a", "front.motor.pressure_b", "front.accumulator.pressure")),
-            Plot("rear pressures", ("rear.motor.pressure_a", "rear.motor.pressure_b", "rear.accumulator.pressure")),
+            _pressures("front"),
+            _pressures("rear"),
             Plot("valve openings", axles("valve.bypass", "valve.fail_safe")),
         ),
     ),
     Tab(
         "machine",
         (
-            Plot("speed", axles("pump.speed")),
-            Plot("torque", axles("machine.torque")),
-            Plot("power", (*axles("machine.power"), "supply.power")),
+            Plot("pump speed", axles("pump.speed")),
+            Plot("machine torque", axles("machine.torque")),
+            Plot("machine power", axles("machine.power")),
         ),
     ),
     Tab(
-        "axle energy",
+        "energy",
         (
-            Plot("drawn", axles("energy.electrical", "energy.recovered")),
-            Plot("lost to oil", axles("energy.pump_leakage", "energy.motor_leakage", "energy.pump_torque_loss")),
-            Plot("lost to current", axles("energy.copper", "energy.inverter", "energy.drag")),
+            Plot("losses of the oil", axles("pump.leakage_power", "motor.leakage_power", "pump.loss_power")),
+            Plot("losses of the current", axles("machine.copper_power", "machine.inverter_power")),
+            Plot("energy since the start", axles("energy.electrical")),
+        ),
+    ),
+    Tab(
+        "supply",
+        (
+            Plot("supply voltage", ("supply.voltage",)),
+            Plot("supply power", ("supply.power", "supply.load")),
+            Plot("share of the power asked for", ("supply.share",)),
         ),
     ),
 )
-LOW = 1e5  # Pa, absolute: below it the low side draws air
-EVENTS = tuple(
-    condition
-    for axle in ("front", "rear")
-    for condition in (
-        Condition(f"{axle}.relief.power", "above", 0.0, "WARN", f"a {axle} relief valve opens"),
-        Condition(f"{axle}.motor.pressure_a", "below", LOW, "WARN", f"the {axle} chamber A runs dry"),
-        Condition(f"{axle}.motor.pressure_b", "below", LOW, "WARN", f"the {axle} chamber B runs dry"),
-        Condition(f"{axle}.pump.extrapolation", "above", 0.0, "WARN", f"the {axle} pump leaves its losses' range"),
+LOW = 1e5  # Pa, absolute: below it oil gives off its air
+
+
+def _events(axle: str) -> tuple[Condition, ...]:
+    return (
+        Condition(f"{axle}.relief.power", "above", 0.0, "WARN", f"the {axle} relief valve opens"),
+        Condition(f"{axle}.motor.pressure_a", "below", LOW, "WARN", f"the {axle} motor's chamber A runs dry"),
+        Condition(f"{axle}.motor.pressure_b", "below", LOW, "WARN", f"the {axle} motor's chamber B runs dry"),
+        Condition(
+            f"{axle}.pump.extrapolation", "above", 0.0, "WARN", f"the {axle} pump leaves the range of its losses"
+        ),
     )
+
+
+EVENTS = (
+    *_events("front"),
+    *_events("rear"),
+    Condition("supply.share", "below", 0.999, "WARN", "the supply sheds load: both axles get less than they ask"),
 )
 
 
 @kernel
-def report(p, now, energy, out, command, twist, electric, powers) -> None:
+def report(p, now, energy, out, demand, electric, powers) -> None:
     """What one axle records.
 
     `now` and `energy` are its AxleState and AxleEnergy, `electric` is the Running of its drive, `powers` (W) are in the
     order of AxleEnergy.
     """
-    _, _, _, _, pump_loss, pump_leak, motor_leak, relief, _, _, friction, motor, _, _ = powers
-    out.bar.angle, out.bar.command = now.angle, command.angle[0]
+    _, _, _, _, pump_loss, pump_leak, motor_leak, relief, _, _, friction, motor = powers
+    out.bar.angle, out.bar.command = now.angle, demand.command.angle[0]
     out.motor.pressure, out.motor.rate = now.motor_a - now.motor_b, now.rate
     out.motor.pressure_a, out.motor.pressure_b = now.motor_a, now.motor_b
     out.motor.output_power, out.motor.leakage_power, out.motor.friction_power = motor, motor_leak, friction
@@ -192,17 +209,19 @@ def report(p, now, energy, out, command, twist, electric, powers) -> None:
     out.pump.extrapolation = fixed_pump_extrapolation(p.circuit.pump, now.speed, now.pump_a - now.pump_b)
     out.machine.torque, out.machine.current = electric.torque, now.current
     out.machine.power, out.machine.copper_power = electric.drawn, electric.copper
+    out.machine.inverter_power = electric.inverter
     out.accumulator.pressure, out.relief.power = now.accumulator, relief
     out.valve.bypass, out.valve.fail_safe = now.bypass, now.fail_safe
     share(out.energy, energy)
-    oil, gas, rotor, bar, inertia = stored_energies(p.circuit, p.stiffness, twist, numbers(now)[0:10])
+    oil, gas, rotor, bar, inertia = stored_energies(p.circuit, p.stiffness, demand.twist, numbers(now)[0:10])
     out.energy.oil, out.energy.accumulator, out.energy.rotor = oil, gas, rotor
     out.energy.bar, out.energy.inertia = bar, inertia
 
 
 @kernel
-def report_supply(supply, now, energy, out, load: float) -> None:
-    """What the supply records under a load (W)."""
-    out.store, out.voltage, out.power = now.store, terminal_voltage(supply, now.store, load), load
+def report_supply(supply, now, energy, out, load: float, granted: float) -> None:
+    """What the supply records under a load (W), where the drives get the share `granted` of what they wish for."""
+    out.voltage, out.power = terminal_voltage(supply, now.store, load), now.converter
+    out.load, out.share = load, granted
     share(out.energy, energy)
     out.energy.store = store_energy(supply, now.store)

@@ -32,51 +32,50 @@ PARAMETERS = np.dtype(
 # fail-safe), and the state of its machine's phases
 Demand = namedtuple("Demand", "command twist openings phases")
 
+# what the loops of an axle ask for (see `asked_of`), the current (A) granted for it, and the Running of its drive
+Side = namedtuple("Side", "asked current electric")
+
+# the axles' Sides, the `load` (W) that both put on the supply, and the share that they get of the power they wish for
+Balance = namedtuple("Balance", "front rear load share")
+
+
+@inlined
+def balance(p, demand, t, state) -> Balance:
+    """What both axles ask of the supply at `t` s in the step, and what it grants; `demand` has the Demand of each."""
+    front_demand, rear_demand = demand
+    front, rear, store = state[0:STATES], state[STATES:SUPPLY], state[SUPPLY]
+    front_electric = running(p.front.drive, front[CURRENT], front[SPEED], store, front_demand.phases)
+    rear_electric = running(p.rear.drive, rear[CURRENT], rear[SPEED], store, rear_demand.phases)
+    load = front_electric.drawn + p.has_rear * rear_electric.drawn
+    voltage = terminal_voltage(p.supply, store, load)
+    front_asked, front_wish = _intent(p.front, front_demand, voltage, t, front)
+    rear_asked, rear_wish = _intent(p.rear, rear_demand, voltage, t, rear)
+    share = power_share(budget(p.supply, store), front_wish.power, p.has_rear * rear_wish.power)
+    return Balance(
+        Side(front_asked, granted(p.front.drive, front_wish, share, front[SPEED], voltage), front_electric),
+        Side(rear_asked, granted(p.rear.drive, rear_wish, share, rear[SPEED], voltage), rear_electric),
+        load,
+        share,
+    )
+
 
 @inlined
 def rates(p, demand, t, state):
-    """Derivatives of State, powers (W) in the order of Energy, and both bars' torques (Nm); `demand` is the Demand of
-    front and of rear.
-    """
-    front_demand, rear_demand = demand
-    front, rear, store = state[0:STATES], state[STATES:SUPPLY], state[SUPPLY]
-    front_electric, rear_electric = (
-        electric(p.front, front_demand, store, front),
-        electric(p.rear, rear_demand, store, rear),
-    )
-    load = front_electric.drawn + p.has_rear * rear_electric.drawn
-    voltage = terminal_voltage(p.supply, store, load)
-
-    front_asked, front_wish = intent(p.front, front_demand, voltage, t, front)
-    rear_asked, rear_wish = intent(p.rear, rear_demand, voltage, t, rear)
-    share = power_share(budget(p.supply, store), front_wish.power, p.has_rear * rear_wish.power)
-    front_current = granted(p.front.drive, front_wish, share, front[SPEED], voltage)
-    rear_current = granted(p.rear.drive, rear_wish, share, rear[SPEED], voltage)
-
-    front_rates, front_powers, front_torque = axle_rates(
-        p.front, front_asked, front_current, front_electric, front_demand.twist, front_demand.openings, front
-    )
-    rear_rates, rear_powers, rear_torque = axle_rates(
-        p.rear, rear_asked, rear_current, rear_electric, rear_demand.twist, rear_demand.openings, rear
-    )
-    rear_rates = along(zeros(rear_rates), rear_rates, p.has_rear)
-    rear_powers = along(zeros(rear_powers), rear_powers, p.has_rear)
-    store_rate, converter_rate, supply_powers = supply_rates(p.supply, store, state[SUPPLY + 1], load)
+    """Derivatives of State, powers (W) in the order of Energy, and both bars' torques (Nm)."""
+    sides = balance(p, demand, t, state)
+    front, front_powers, front_torque = axle_rates(p.front, sides.front, demand[0], state[0:STATES])
+    rear, rear_powers, rear_torque = axle_rates(p.rear, sides.rear, demand[1], state[STATES:SUPPLY])
+    rear, rear_powers = along(zeros(rear), rear, p.has_rear), along(zeros(rear_powers), rear_powers, p.has_rear)
+    store, converter, supply_powers = supply_rates(p.supply, state[SUPPLY], state[SUPPLY + 1], sides.load)
     return (
-        (*front_rates, *rear_rates, store_rate, converter_rate),
+        (*front, *rear, store, converter),
         (*front_powers, *rear_powers, *supply_powers),
         (front_torque, p.has_rear * rear_torque),
     )
 
 
 @inlined
-def electric(p, demand, store, state):
-    """The Running of an axle's drive, at the store's voltage (V)."""
-    return running(p.drive, state[CURRENT], state[SPEED], store, demand.phases)
-
-
-@inlined
-def intent(p, demand, voltage, t, state):
-    """What an axle's loops ask for (see `asked_of`), and the Wish that it makes of its drive."""
-    asked = asked_of(p, demand.command, demand.twist, demand.openings, voltage, t, state)
+def _intent(p, demand, voltage, t, state):
+    # what an axle's loops ask for, and the Wish that it makes of its drive
+    asked = asked_of(p, demand, voltage, t, state)
     return asked, wish(p.drive, asked[0], state[SPEED], voltage, demand.phases)

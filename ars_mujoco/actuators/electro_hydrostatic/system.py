@@ -25,10 +25,10 @@ from ars_mujoco.actuators.electro_hydrostatic.equations import (
     POWERS,
     SUPPLY_POWERS,
     Demand,
-    electric,
+    balance,
     rates,
 )
-from ars_mujoco.actuators.electro_hydrostatic.file import AXLES, fill_axle
+from ars_mujoco.actuators.electro_hydrostatic.file import AXLES, check_valves, fill_axle, released
 from ars_mujoco.actuators.electro_hydrostatic.file import ElectroHydrostatic as File
 from ars_mujoco.actuators.system import Beyond, Car, Input
 from ars_mujoco.control.control_unit import BarCommand
@@ -37,20 +37,21 @@ from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.records import numbers
 from ars_mujoco.kernels.substeps import derivatives, fewest_substeps, scales, slopes
 from ars_mujoco.machines.electric_machine import DRIVEN, SHORTED
+from ars_mujoco.machines.electric_supply import terminal_voltage
 from ars_mujoco.schema.parameters import fill as fill_block
 from ars_mujoco.schema.parameters import record_dtype
 
 NAME = "electro_hydrostatic"
 FOLLOWS = "torque"
 INPUTS = {
-    f"{axle}_{name}": each
-    for axle in ("front", "rear")
-    for name, each in {
-        "bypass": Input("1", 0.0, 0.0, 1.0),  # openings: 0 shut, 1 open
-        "fail_safe": Input("1", 1.0, 0.0, 1.0),
-        "phases": Input("1", DRIVEN, SHORTED, DRIVEN),  # 1 driven, 0 open, -1 shorted
-    }.items()
+    "front_bypass": Input("1", 0.0, 0.0, 1.0),  # openings: 0 shut, 1 open
+    "front_fail_safe": Input("1", 1.0, 0.0, 1.0),
+    "front_phases": Input("1", DRIVEN, SHORTED, DRIVEN),  # 1 driven, 0 open, -1 shorted
+    "rear_bypass": Input("1", 0.0, 0.0, 1.0),
+    "rear_fail_safe": Input("1", 1.0, 0.0, 1.0),
+    "rear_phases": Input("1", DRIVEN, SHORTED, DRIVEN),
 }
+FRONT_BYPASS, FRONT_FAIL_SAFE, FRONT_PHASES, REAR_BYPASS, REAR_FAIL_SAFE, REAR_PHASES = range(6)
 BEYOND = Beyond("over 1000 bar, or far past its stop", ("front.motor.pressure", "rear.motor.pressure"))
 FAR_PRESSURE = 1000e5  # Pa
 FAR_ANGLE = 2.0  # of the motor's stop
@@ -66,33 +67,32 @@ step_through, evaluate = integrated(rates), derivatives(rates)
 @kernel
 def advance(p, now, later, out, work, command, twists, moment):
     """Both axles over the coming step, see `actuators.system`."""
-    inputs, front, rear = command.inputs, twists.front, twists.rear
-    front_demand = Demand(command.front, front.angle, (inputs[0], inputs[1]), inputs[2])
-    rear_demand = Demand(command.rear, rear.angle, (inputs[3], inputs[4]), inputs[5])
-    _report(p, now, out, (front_demand, rear_demand))
-    held = (
-        Demand(command.front, front.held, front_demand.openings, front_demand.phases),
-        Demand(command.rear, rear.held, rear_demand.openings, rear_demand.phases),
-    )
+    _report(p, now, out, _demand(command, twists.front.angle, twists.rear.angle))
+    held = _demand(command, twists.front.held, twists.rear.held)
     return step_through(p, now, later, held, moment.step, int(p.substeps))
+
+
+@kernel
+def _demand(command, front_twist, rear_twist):
+    # the Demands of both axles, their bars twisted by so much (rad)
+    inputs = command.inputs
+    front_openings = (inputs[FRONT_BYPASS], inputs[FRONT_FAIL_SAFE])
+    rear_openings = (inputs[REAR_BYPASS], inputs[REAR_FAIL_SAFE])
+    return (
+        Demand(command.front, front_twist, front_openings, inputs[FRONT_PHASES]),
+        Demand(command.rear, rear_twist, rear_openings, inputs[REAR_PHASES]),
+    )
 
 
 @kernel
 def _report(p, now, out, demand):
     # what a run records of the state now
-    front, rear = demand
-    state, energy, store = now.state, now.energy, now.state.supply.store
-    _, powers, _ = rates(p, demand, 0.0, numbers(state))
-    front_electric, rear_electric = (
-        electric(p.front, front, store, numbers(state.front)),
-        electric(p.rear, rear, store, numbers(state.rear)),
-    )
-    report(p.front, state.front, energy.front, out.front, front.command, front.twist, front_electric, powers[0:POWERS])
-    report(
-        p.rear, state.rear, energy.rear, out.rear, rear.command, rear.twist, rear_electric, powers[POWERS:SUPPLY_POWERS]
-    )
-    load = powers[0] + powers[POWERS]
-    report_supply(p.supply, state.supply, energy.supply, out.supply, load)
+    state, energy, numbered = now.state, now.energy, numbers(now.state)
+    sides = balance(p, demand, 0.0, numbered)
+    _, powers, _ = rates(p, demand, 0.0, numbered)
+    report(p.front, state.front, energy.front, out.front, demand[0], sides.front.electric, powers[0:POWERS])
+    report(p.rear, state.rear, energy.rear, out.rear, demand[1], sides.rear.electric, powers[POWERS:SUPPLY_POWERS])
+    report_supply(p.supply, state.supply, energy.supply, out.supply, sides.load, sides.share)
 
 
 @kernel
@@ -117,7 +117,11 @@ def _is_beyond(p, state):
 
 
 def fill(record, file: File, car: Car, step: float) -> None:
-    """Write the parameters; without a rear bar, as on the bench, the rear axle stands still and draws nothing."""
+    """Write the parameters; without a rear bar, as on the bench, the rear axle stands still and draws nothing.
+
+    Raises InputError where a cycle commands a valve that the file has not.
+    """
+    check_valves(file, car.inputs)
     fill_axle(record.front, file.front, file.control, car.front)
     fill_axle(record.rear, file.rear, file.control, car.rear or car.front)
     fill_block(record.supply, file.supply)
@@ -127,13 +131,16 @@ def fill(record, file: File, car: Car, step: float) -> None:
 
 
 def start(record, state) -> None:
-    """Write the state at rest: every pressure is the accumulator's, the store is full."""
+    """Write the state at rest: every pressure is the accumulator's, the converter feeds what is on."""
     for name in AXLES:
         axle = state.state[name]
         for pressure in PRESSURES:
             axle[pressure] = record[name].circuit.accumulator.pressure
         axle.fail_safe = 1.0
-    state.state.supply.store = record.supply.voltage
+    supply, drives = record.supply, (record.front.drive, record.rear.drive)
+    standby = drives[0].inverter.standby_power + record.has_rear * drives[1].inverter.standby_power
+    line = supply.line_resistance * (standby / terminal_voltage(supply, supply.voltage, standby)) ** 2
+    state.state.supply.store, state.state.supply.converter = supply.voltage, supply.controller_power + standby + line
 
 
 def _slopes(record) -> list[np.ndarray]:

@@ -66,16 +66,16 @@ class ValveOutput(Parameters):
 
 
 class EnergyOutput(CircuitEnergy):
-    oil: float = stored("in the oil's compression")
-    bar: float = stored("in the bar's torsion and the motor's mechanical stop")
-    inertia: float = stored("in the motor's inertia")
+    oil: float = stored("stored in the oil's compression")
+    bar: float = stored("stored in the bar's torsion and the motor's mechanical stop")
+    inertia: float = stored("stored in the motor's inertia")
 
 
 class FullEnergyOutput(FullCircuitEnergy):
-    oil: float = stored("in the oil's compression")
-    bar: float = stored("in the bar's torsion and the motor's mechanical stop")
-    inertia: float = stored("in the motor's inertia")
-    oil_motion: float = stored("in the moving oil of the lines")
+    oil: float = stored("stored in the oil's compression")
+    bar: float = stored("stored in the bar's torsion and the motor's mechanical stop")
+    inertia: float = stored("stored in the motor's inertia")
+    oil_motion: float = stored("stored in the moving oil of the lines")
 
 
 class AxleOutput(Parameters):

@@ -68,10 +68,10 @@ class Detail(Parameters):
 class FullCircuitEnergy(CircuitEnergy):
     """Energies of one axle since the start; what the reduced plant does not have stays zero."""
 
-    line: float = lost("to the flow through the lines and the fail-safe valve")
-    check: float = lost("over the check valves")
-    bypass: float = lost("over the bypass valve")
-    tank_leakage: float = lost("to leakage to the tank")
+    line: float = lost("lost to the flow through the lines and the fail-safe valve")
+    check: float = lost("lost over the check valves")
+    bypass: float = lost("lost over the bypass valve")
+    tank_leakage: float = lost("lost to leakage to the tank")
     charge_pump: float = counted("of charge, work of the shaft on the charge pump")
 
 

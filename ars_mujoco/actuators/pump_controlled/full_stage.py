@@ -8,7 +8,7 @@ from ars_mujoco.actuators.pump_controlled.file import File, fill_system, start_s
 from ars_mujoco.actuators.pump_controlled.full_circuit import WORK, advance_apart, shaft_work
 from ars_mujoco.actuators.pump_controlled.report import report_full as report
 from ars_mujoco.actuators.pump_controlled.strokes import advance_stage, is_beyond, parameters, sense, states
-from ars_mujoco.actuators.pump_controlled.third_order_stage import BEYOND, FOLLOWS, IN_UNIT, NAME
+from ars_mujoco.actuators.pump_controlled.third_order_stage import BEYOND, EVENTS, FOLLOWS, IN_UNIT, NAME, PLOTS
 from ars_mujoco.actuators.system import Input
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.schema.parameters import record_dtype

@@ -5,6 +5,7 @@ import sys
 from ars_mujoco.actuators.pump_controlled.axle import Axle, AxleState
 from ars_mujoco.actuators.pump_controlled.channels import Output
 from ars_mujoco.actuators.pump_controlled.file import File, PumpControlled, fill_axle, fill_system
+from ars_mujoco.actuators.pump_controlled.plots import EVENTS, PLOTS
 from ars_mujoco.actuators.pump_controlled.report import report_third_order as report
 from ars_mujoco.actuators.pump_controlled.strokes import advance_stage, is_beyond, parameters, sense, states
 from ars_mujoco.actuators.pump_controlled.third_order_circuit import advance_both

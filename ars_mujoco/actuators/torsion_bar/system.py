@@ -36,7 +36,7 @@ File = Annotated[NoBar | Passive | Locked, Field(discriminator="kind")]
 
 
 class EnergyOutput(Parameters):
-    bar: float = stored("in the bar's torsion")
+    bar: float = stored("stored in the bar's torsion")
 
 
 class AxleOutput(Parameters):

@@ -15,11 +15,16 @@ from ars_mujoco.recording.rerun.car import BODY, chase_of, in_chase_of
 from ars_mujoco.recording.rerun.look import Look, ghost
 from ars_mujoco.recording.rerun.rerun_file import close_stream, open_stream, part_of
 from ars_mujoco.recording.rerun.run import RerunRun
+from ars_mujoco.schema.plots import merged
 
 
 def write_comparison(path: Path, runs: dict[str, Recording]) -> None:
-    """Write `runs`, by name, to `path`: each below `/<name>`, signals overlaid, the last one solid."""
-    *ghosts, (name, solid) = runs.items()
+    """Write `runs`, by name, to `path`: each below `/<name>`, signals overlaid, the last one solid.
+
+    The tabs are those of all runs, so that what one run does not have is shown beside what it has.
+    """
+    tabs = merged(*(run.tabs for run in runs.values()))
+    *ghosts, (name, solid) = [(name, replace(run, tabs=tabs)) for name, run in runs.items()]
     part = part_of(Path(path))
     stream = open_stream(part, f"{solid.title}: {' and '.join(runs)}")
     drawn = [RerunRun(stream, solid, f"/{name}", Look(name))]

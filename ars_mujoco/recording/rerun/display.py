@@ -45,6 +45,9 @@ QUANTITIES = {
     "m": "position",
     "mm": "travel",
     "m/s": "velocity",
+    "A": "current",
+    "V": "voltage",
+    "V*s": "flux",
     "rpm": "speed",
     "-": "fraction",
 }
@@ -62,6 +65,8 @@ LEAST = {
     "mm": 5.0,
     "km/h": 5.0,
     "rpm": 100.0,
+    "A": 5.0,
+    "V": 1.0,
 }
 MARGIN = 0.06
 FEW_LABELS = 0.5  # of a decade: a half range above it leaves no room for the labels of a tenth of the decade

@@ -2,12 +2,12 @@
 
 import rerun.blueprint as rrb
 
-from ars_mujoco.recording.plots import Plot, tabs_of
 from ars_mujoco.recording.rerun.batch import TIMELINE
 from ars_mujoco.recording.rerun.car import BODY, Car
 from ars_mujoco.recording.rerun.run import RerunRun
 from ars_mujoco.recording.rerun.signals import plot_range
 from ars_mujoco.recording.rerun.solids import KINDS
+from ars_mujoco.schema.plots import Plot, recorded
 
 NOTHING = (float("inf"), float("-inf"))  # the extremes of a run without samples
 BACKGROUND = (24, 27, 32)
@@ -66,8 +66,9 @@ def _view(name: str, origin: str, contents: list[str], eye: tuple, target: tuple
 
 def _plot_tabs(runs: list[RerunRun]) -> list[rrb.Vertical]:
     """The plots in which some signal is not 0 all the time; a reduced circuit, say, has no valves to show."""
-    channels = list(dict.fromkeys(name for run in runs for name in run.signals.channels))
-    tabs = {tab.name: [plot for plot in tab.plots if _moves(runs, plot)] for tab in tabs_of(channels)}
+    channels = {name for run in runs for name in run.signals.channels}
+    found = recorded(runs[0].signals.tabs, channels)  # of a comparison each run has the tabs of all
+    tabs = {tab.name: [plot for plot in tab.plots if _moves(runs, plot)] for tab in found}
     return [rrb.Vertical(*(_plot(runs, plot) for plot in plots), name=name) for name, plots in tabs.items() if plots]
 
 

@@ -17,7 +17,7 @@ class RerunRun:
     def __init__(self, stream: rr.RecordingStream, run: Recording, root: str = "", look: Look = OWN, row: int = 0):
         self.stream, self.root = stream, root
         self.car = Car(stream, run, root, look, row)
-        self.signals = Signals(run.channels, root, look)
+        self.signals = Signals(run.channels, run.tabs, root, look)
         styles = Batch()
         self.signals.style(styles)
         styles.send(stream)

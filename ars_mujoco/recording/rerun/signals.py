@@ -1,24 +1,27 @@
 """A run's signals in Rerun, in display units: channels of one plot, one quantity or all corners share an entity."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from ars_mujoco.recording.plots import Plot, corner_of, entity_of, place_of
 from ars_mujoco.recording.rerun.batch import Batch
 from ars_mujoco.recording.rerun.display import axis_range, series_name, unit_and_factor
+from ars_mujoco.recording.rerun.entities import corner_of, entity_of, place_of
 from ars_mujoco.recording.rerun.look import Look
 from ars_mujoco.schema.channels import Channel
+from ars_mujoco.schema.plots import Plot, Tab
 
 
 class Signals:
-    """The signals of a run below `root`; knows the extremes of what was added so far."""
+    """The signals of a run below `root`, placed by its `tabs`; knows the extremes of what was added so far."""
 
-    def __init__(self, channels: dict[str, Channel], root: str, look: Look):
-        self.channels, self.root, self.look = channels, root, look
+    def __init__(self, channels: dict[str, Channel], tabs: Sequence[Tab], root: str, look: Look):
+        self.channels, self.tabs, self.root, self.look = channels, tabs, root, look
         self.columns = {name: column for column, name in enumerate(channels)}
         self.factors = np.array([unit_and_factor(channel)[1] for channel in channels.values()])
         self.entities: dict[str, list[str]] = {}
         for channel in channels.values():
-            self.entities.setdefault(root + entity_of(channel), []).append(channel.name)
+            self.entities.setdefault(root + entity_of(channel, tabs), []).append(channel.name)
         self.low = np.full(len(channels), np.inf)
         self.high = np.full(len(channels), -np.inf)
 
@@ -26,7 +29,7 @@ class Signals:
         """Names, colors and widths of the series, once."""
         for entity, names in self.entities.items():
             labels = [self.look.label(series_name(self.channels[name])) for name in names]
-            colors = [self.look.series_color(corner_of(name), place_of(name)) for name in names]
+            colors = [self.look.series_color(corner_of(name), place_of(name, self.tabs)) for name in names]
             batch.add(entity, "SeriesLines:names", np.array([labels]))
             batch.add(entity, "SeriesLines:colors", np.array([colors], np.uint32))
             batch.add(entity, "SeriesLines:widths", np.full((1, len(names)), self.look.width, np.float32))
@@ -47,7 +50,7 @@ class Signals:
     def paths(self, plot: Plot) -> list[str]:
         """The entities of the plot, each once."""
         known = [self.channels[name] for name in plot.channels if name in self.channels]
-        return list(dict.fromkeys(self.root + entity_of(channel) for channel in known))
+        return list(dict.fromkeys(self.root + entity_of(channel, self.tabs) for channel in known))
 
 
 def plot_range(runs: list[Signals], plot: Plot) -> tuple[float, float]:

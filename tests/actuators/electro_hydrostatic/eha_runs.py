@@ -9,7 +9,6 @@ import numpy as np
 from shipped import recording
 
 from ars_mujoco.recording.recording import Recording
-from ars_mujoco.rigs.rig import rig
 from ars_mujoco.schema.channels import ROLES
 
 STIFFNESS = 5700.0  # Nm/rad, c of the bench's bar
@@ -77,17 +76,12 @@ def time_constant(time: np.ndarray, values: np.ndarray) -> float:
     return -1.0 / np.polyfit(time, np.log(np.abs(values)), 1)[0]
 
 
-@cache
-def _roles() -> dict[str, str]:
-    from ars_mujoco.actuators.electro_hydrostatic import system
-
-    return {name: each.role for name, each in rig("bench", system).channels.items() if each.role}
-
-
-def astray(run: Recording, block: str) -> float:
-    """Energy (J) that the books of a block miss over a run."""
-    sums = dict.fromkeys(ROLES, 0.0)
-    for name, role in _roles().items():
-        if name.startswith(f"{block}."):
-            sums[role] += run[name][-1] - run[name][0]
-    return sums["drawn"] - sums["lost"] - sums["stored"] - sums["done"] - sums["delivered"]
+def books(run: Recording, block: str) -> tuple[float, float]:
+    """(energy that the books of a block miss over a run, energy that went over its borders either way), J."""
+    sums, crossed = dict.fromkeys(ROLES, 0.0), 0.0
+    for name, each in run.channels.items():
+        if each.role and name.startswith(f"{block}."):
+            sums[each.role] += run[name][-1] - run[name][0]
+            if each.role in ("drawn", "done", "delivered"):
+                crossed += np.abs(np.diff(run[name])).sum()
+    return sums["drawn"] - sums["lost"] - sums["stored"] - sums["done"] - sums["delivered"], crossed

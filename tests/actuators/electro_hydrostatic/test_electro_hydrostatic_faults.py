@@ -23,6 +23,8 @@ from eha_runs import (
     time_constant,
 )
 
+from ars_mujoco.schema.errors import InputError
+
 TRIP = 1.0  # s
 OIL = 1.0 + C_H * STIFFNESS / D**2  # how much longer all decays take because the oil unloads with the bar
 BLOCKED = ("front.rotor_inertia=1e6 kg*m^2",)
@@ -91,6 +93,11 @@ def test_a_tripped_circuit_is_not_pumped_against():
         run = bench_run(ramp_to(600), 3.0, *settings, inputs=fault)
         assert run["front.machine.power"][-1] < 20.0
         assert run["front.relief.power"].max() == 0.0
+
+
+def test_a_valve_that_is_not_there_cannot_be_commanded():
+    with pytest.raises(InputError, match=r"inputs.front_bypass: the actuator has no front.bypass_valve"):
+        bench_run(ramp_to(600), 3.0, inputs=switch("bypass", 0, 1, TRIP))
 
 
 def test_a_supply_that_sags_to_36_volts_takes_a_quarter_of_its_speed():

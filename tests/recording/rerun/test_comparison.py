@@ -1,5 +1,7 @@
 """Several runs in one file: each below its name, ghosts riding along with the solid run."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from rerun.chunk import RrdReader
@@ -7,6 +9,7 @@ from synthetic import s_curve
 
 from ars_mujoco.recording.rerun.comparison import riding_with, write_comparison
 from ars_mujoco.recording.rerun.rotation import roll_of, yaw_of
+from ars_mujoco.schema.plots import Plot, Tab
 
 
 @pytest.fixture(scope="module")
@@ -24,6 +27,14 @@ def test_each_run_stands_below_its_name(run, flat, tmp_path):
         assert {f"/{name}/signals/body/roll", f"/{name}/world/car/body", f"/{name}/meta/run"} <= paths
     assert "/pump_controlled/world/scene/trail" in paths
     assert "/passive/world/scene/trail" not in paths
+
+
+def test_runs_of_different_systems_share_the_tabs_of_all(run, flat, tmp_path):
+    own = (Tab("motor", (Plot("torque", ("front.bar.torque", "rear.bar.torque")),)),)
+    write_comparison(tmp_path / "compare.rrd", {"pump": run, "motor": replace(flat, tabs=own)})
+    paths = set(RrdReader(tmp_path / "compare.rrd").store().schema().entity_paths())
+    for name in ("pump", "motor"):
+        assert {f"/{name}/signals/motor/torque", f"/{name}/signals/front_axle/bar_angle"} <= paths
 
 
 def test_a_ghost_takes_place_and_heading_and_keeps_its_roll(run, flat):

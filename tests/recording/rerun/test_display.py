@@ -2,7 +2,7 @@
 
 import pytest
 
-from ars_mujoco.recording.rerun.display import axis_range, series_name, unit_and_factor
+from ars_mujoco.recording.rerun.display import axis_range, quantity_of, series_name, unit_and_factor
 from ars_mujoco.schema.channels import Channel
 
 
@@ -18,11 +18,17 @@ from ars_mujoco.schema.channels import Channel
         ("fl.suspension.rate", "m/s", "m/s", 1.0),
         ("suspension.travel", "m", "mm", 1e3),
         ("fl.suspension.travel", "rad", "deg", 57.29578),
+        ("supply.voltage", "V", "V", 1.0),
         ("made.up", "kg", "kg", 1.0),
     ],
 )
 def test_a_channel_is_shown_in_an_engineers_unit(name, unit, shown, one):
     assert unit_and_factor(Channel(name, unit, "")) == (shown, pytest.approx(one))
+
+
+def test_quantities_of_motors_and_supplies_have_names():
+    named = [quantity_of(Channel("made.up", unit, "")) for unit in ("A", "V", "V*s")]
+    assert named == ["current", "voltage", "flux"]
 
 
 def test_a_series_is_named_with_its_unit():

@@ -14,8 +14,9 @@ from rerun.chunk import RrdReader
 from ars_mujoco.recording.recording import Event, Recording, scene_of
 from ars_mujoco.recording.rerun.rerun_file import RerunFile, write_rerun
 from ars_mujoco.schema.channels import Channel
+from ars_mujoco.schema.plots import Plot, Tab
 
-HERE = Path(__file__).parent
+ROOM = Path(__file__).parents[1]  # where `synthetic` is
 
 
 @pytest.fixture(scope="module")
@@ -138,6 +139,7 @@ def test_a_rig_without_a_car_is_recorded_too(tmp_path):
         values=np.column_stack((time, np.full(11, np.nan))),
         bodies=["bar_left"],
         scene=scene_of(model),
+        tabs=(Tab("bar", (Plot("bar angle", ("bar.command", "bar.angle")),)),),
         pose_time=time,
         poses=np.tile((0, 0, 0, 1.0, 0, 0, 0), (11, 1, 1)),
         events=[Event(0.0, "INFO", "start")],
@@ -185,8 +187,8 @@ time.sleep(60)
 
 def test_a_killed_process_leaves_what_was_simulated_and_no_final_name(tmp_path):
     path = tmp_path / "run.rrd"
-    script = KILLED.format(here=str(HERE), path=str(path))
-    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, cwd=HERE.parent.parent)
+    script = KILLED.format(here=str(ROOM), path=str(path))
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, cwd=ROOM.parents[1])
     assert process.stdout.readline().strip() == b"two of three seconds"
     os.kill(process.pid, signal.SIGKILL)
     process.wait()

@@ -1,0 +1,1 @@
+"""Electromechanical: a motor and a planetary gear between the halves of each bar, on one electric supply."""
