@@ -33,9 +33,9 @@ from ars_mujoco.actuators.electro_hydrostatic.file import ElectroHydrostatic as 
 from ars_mujoco.actuators.system import Beyond, Car, Input
 from ars_mujoco.control.control_unit import BarCommand
 from ars_mujoco.kernels.integration import integrated
-from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.kernels.kernel import entry, kernel
 from ars_mujoco.kernels.records import numbers
-from ars_mujoco.kernels.substeps import derivatives, fewest_substeps, scales, slopes
+from ars_mujoco.kernels.substeps import fewest_substeps, scales, slopes
 from ars_mujoco.machines.electric_machine import DRIVEN, SHORTED
 from ars_mujoco.machines.electric_supply import terminal_voltage
 from ars_mujoco.schema.parameters import fill as fill_block
@@ -61,7 +61,13 @@ IDLE = Demand(BarCommand((0.0, 0.0, 0.0), 0.0), 0.0, (0.0, 1.0), DRIVEN)
 
 STATE = np.dtype([("state", record_dtype(State)), ("energy", record_dtype(Energy))])
 
-step_through, evaluate = integrated(rates), derivatives(rates)
+step_through = integrated(rates)
+
+
+@entry
+def derivatives(p, demand, state):
+    """Derivatives of a State record."""
+    return rates(p, demand, 0.0, numbers(state))[0]
 
 
 @kernel
@@ -161,4 +167,4 @@ def _slopes(record) -> list[np.ndarray]:
         drawn.motor_a = drawn.motor_b = 0.0
         stopped.angle = 1.01 * circuit.motor.stop_angle
         bypassed.bypass = 1.0
-    return [slopes(evaluate, record, demand, look.state, scales(State)) for look in looks]
+    return [slopes(derivatives, record, demand, look.state, scales(State)) for look in looks]
