@@ -15,8 +15,8 @@ them in series: C_H. Only while a check valve holds the low side does the differ
 leakage runs from side to side, in pump and motor (the paper's k_Li), so no oil is ever lost: what the accumulator once
 gave, as the low side was drawn down, stays in the lines and keeps their mean at half the highest pressure.
 
-Where the file has no fail-safe valve, a line and its chamber are one and their two pressures run alike. All the oil's
-own elasticity is linear: at 190 bar and a motor within 15 deg of its middle, air and swept volume change C_H by 7 %.
+Where the file has no fail-safe valve, a line and its chamber are one and their two pressures run alike. All elasticity
+is linear, C_H being the paper's for oil under pressure: neither the swept volume nor air at 5 bar makes a side softer.
 """
 
 from ars_mujoco.hydraulics.accumulator import Accumulator, accumulator_energy, accumulator_rate
