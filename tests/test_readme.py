@@ -20,7 +20,8 @@ COMMANDS = [
     if line.startswith("ars ")
 ]
 (POINTS,) = [block for language, block in BLOCKS if language == "csv"]
-LAW, PROGRAM = [block for language, block in BLOCKS if language == "python"]
+LAW, SYSTEM, PROGRAM = [block for language, block in BLOCKS if language == "python"]
+COMPENSATORS, SYSTEM_FILE = [block for language, block in BLOCKS if language == "yaml"]
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -29,6 +30,8 @@ def test_every_command_of_the_readme_runs(command, tmp_path, monkeypatch):
         pytest.skip("a benchmark is run by name: it wants an idle machine")
     monkeypatch.chdir(tmp_path)
     Path("my_controller.py").write_text(LAW)
+    Path("servo.py").write_text(SYSTEM)
+    Path("servo.yaml").write_text(SYSTEM_FILE)
     Path("pump.csv").write_text(POINTS)
     result = CliRunner().invoke(app, shlex.split(command)[1:])
     assert result.exit_code == 0, result.output
@@ -82,9 +85,22 @@ def test_the_compensators_of_the_readme_are_accepted(tmp_path):
     from ars_mujoco.schema.library import shipped
     from ars_mujoco.studies.inputs import read_inputs
 
-    (block,) = [block for language, block in BLOCKS if language == "yaml"]
-    mine = tmp_path / "mine.yaml"
-    mine.write_text(shipped("controller")["cascade"].read_text() + block)
-    controller = read_inputs("s_curve_120kmh", controller=str(mine)).controller.value
-    assert actuator.control.pressure_feedback.gain == pytest.approx(0.072e-5)
-    assert actuator.control.compensator.frequency == pytest.approx(834)
+    mine, text = tmp_path / "mine.yaml", shipped("actuator")["pump_controlled"].read_text()
+    mine.write_text(text.replace("control:  ", COMPENSATORS.join(["control:\n", "  #"]), 1))
+    control = read_inputs("s_curve_120kmh", str(mine)).actuator.value.control
+    assert control.pressure_feedback.gain == pytest.approx(0.072e-5)
+    assert control.compensator.frequency == pytest.approx(834)
+
+
+def test_the_system_of_the_readme_is_short_and_levels_the_car(tmp_path, monkeypatch):
+    from ars_mujoco.studies.inputs import read_compared
+    from ars_mujoco.studies.study import study
+
+    assert len(SYSTEM.splitlines()) < 60
+    monkeypatch.chdir(tmp_path)
+    Path("servo.py").write_text(SYSTEM)
+    Path("servo.yaml").write_text(SYSTEM_FILE)
+    (result,) = study(*read_compared("s_curve_120kmh", ["servo.py"]), None, lambda name, share: None)
+    assert result.metrics["roll_reduction_factor"].value > 7.0
+    assert result.metrics["energy_audit_error"].value < 1e-3
+    assert result.inputs.record()["actuator"]["system"]["path"] == "servo.py"

@@ -12,7 +12,6 @@ from mujoco.batch import Batch
 
 from ars_mujoco.bridge import world as worlds
 from ars_mujoco.bridge.callback import installed
-from ars_mujoco.rigs import bench
 from ars_mujoco.schema.errors import ArsError, SimulationError
 from ars_mujoco.simulation.simulation import check, empty_recording
 
@@ -93,13 +92,13 @@ def test_runge_kutta_is_refused_and_the_error_says_why(sedan):
 
 
 def test_a_model_of_another_rig_is_refused(sedan):
-    with pytest.raises(ArsError, match="not built for the rig 'bench'"), installed(bench, sedan.model, sedan.start()):
+    with pytest.raises(ArsError, match="not built for the rig 'bench'"), installed(shipped.simulation(BENCH).rig, sedan.model, sedan.start()):
         pass
 
 
 def test_a_model_that_has_room_for_the_world_but_does_not_carry_it_is_refused():
-    spec = mujoco.MjSpec()
-    spec.nuserdata = bench.WORLD.itemsize // 8
+    spec, bench = mujoco.MjSpec(), shipped.simulation(BENCH).rig
+    spec.nuserdata = bench.SIZE
     model = spec.compile()
     with pytest.raises(ArsError, match="not built for the rig"), installed(bench, model, mujoco.MjData(model)):
         pass
@@ -282,17 +281,18 @@ def test_a_batch_that_is_reset_begins_anew(sedan):
 TWIN = """
 import sys
 from importlib import import_module
+from ars_mujoco.rigs.rig import rig
 import mujoco, numpy as np
 from ars_mujoco.bridge.callback import installed
 from ars_mujoco.kernels.kernel import interpreted
 assert interpreted
-folder, name, steps = sys.argv[1], sys.argv[2], int(sys.argv[3])
-rig = import_module(f"ars_mujoco.rigs.{name}")
+folder, name, system, steps = sys.argv[1], sys.argv[2], sys.argv[3], int(sys.argv[4])
+pair = rig(name, import_module(system))
 model = mujoco.MjModel.from_binary_path(f"{folder}/model.mjb")
 data = mujoco.MjData(model)
 mujoco.mj_setState(model, data, np.load(f"{folder}/state.npy"), mujoco.mjtState.mjSTATE_INTEGRATION)
 worlds = []
-with installed(rig, model, data):
+with installed(pair, model, data):
     for _ in range(steps):
         mujoco.mj_step(model, data)
         worlds.append(data.userdata.copy())
@@ -307,7 +307,8 @@ def twins_apart(simulation, data, steps, folder, monkeypatch) -> float:
     mujoco.mj_saveModel(simulation.model, str(folder / "model.mjb"))
     np.save(folder / "state.npy", shipped.state_of(simulation.model, data))
     monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
-    subprocess.run([sys.executable, "-c", TWIN, str(folder), simulation.rig.NAME, str(steps)], check=True)
+    pair = (simulation.rig.NAME, simulation.rig.system.__name__)
+    subprocess.run([sys.executable, "-c", TWIN, str(folder), *pair, str(steps)], check=True)
     compiled = []
     with installed(simulation.rig, simulation.model, data):
         for _ in range(steps):

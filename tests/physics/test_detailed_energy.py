@@ -136,11 +136,13 @@ def least_pressures(simulation):
             mujoco.mj_step(simulation.model, data)
             world = worlds.view(data, simulation.rig.WORLD)
             assert world.header.status == worlds.RUNNING
-            detail, out = world.later.system.front.detail, world.out.front
-            found = {
-                "cylinder": min(detail.p_a, detail.p_b), "pump": min(out.pump.pressure_a, out.pump.pressure_b),
-                "motor": min(out.motor.pressure_a, out.motor.pressure_b), "gallery": out.charge.pressure,
-            }  # fmt: skip
+            detail, out = world.later.system.front.detail, world.out.system.front
+            found = {"cylinder": min(detail.p_a, detail.p_b)}
+            if world.parameters.system.front.detail.plant == FULL_PLANT:
+                found |= {
+                    "pump": min(out.pump.pressure_a, out.pump.pressure_b),
+                    "motor": min(out.motor.pressure_a, out.motor.pressure_b), "gallery": out.charge.pressure,
+                }  # fmt: skip
             least = {name: min(value, least.get(name, value)) for name, value in found.items()}
     axle = world.parameters.system.front.detail
     has = int(axle.stage == FULL) * ["cylinder"] + int(axle.plant == FULL_PLANT) * ["pump", "motor", "gallery"]

@@ -35,5 +35,5 @@ def test_the_interpreted_twin_agrees_to_1e_12(stage, actuator, tmp_path, monkeyp
     bench = simulation(BENCH, stage, actuator)
     data = shipped.driven(bench, 0.7)
     apart = twins_apart(bench, data, 40, tmp_path, monkeypatch)
-    assert abs(data.userdata.view(bench.rig.WORLD).view(np.recarray)[0].out.front.motor.rate) > 1e-3
+    assert abs(data.userdata.view(bench.rig.WORLD).view(np.recarray)[0].out.system.front.motor.rate) > 1e-3
     assert apart < 1e-12

@@ -1,7 +1,7 @@
-"""Actuators: what their files must hold for the stage of simplification that they name."""
+"""Pump-controlled bars: what their files must hold for the stage of simplification that they name."""
 
 import pytest
-from ars_mujoco.actuators.actuator import FullPumpControlled, PumpControlled
+from ars_mujoco.actuators.pump_controlled.file import FullPumpControlled, PumpControlled
 
 from ars_mujoco.schema.errors import InputError
 from ars_mujoco.schema.library import shipped
