@@ -60,6 +60,9 @@ class AxleEnergy(Parameters):
 
 
 STATES, POWERS = len(AxleState.model_fields), len(AxleEnergy.model_fields)
+PLACES = list(AxleState.model_fields)
+SPEED, ANGLE, SENSED, INTEGRAL, CURRENT = map(PLACES.index, ("speed", "angle", "sensed", "integral", "current"))
+# before SENSED stand the states of the circuit
 
 
 @inlined
@@ -70,13 +73,13 @@ def asked_of(p, demand, voltage, t, state):
     Against a shut fail-safe valve, or round through an open bypass valve, nothing is pumped. `demand` is a Demand,
     `voltage` (V) the supply's.
     """
-    circuit, control, speed, angle, sensed, integral = p.circuit, p.control, state[7], state[8], state[10], state[11]
+    circuit, control, sensed = p.circuit, p.control, state[SENSED]
     command, (bypass, fail_safe) = demand.command, demand.openings
     c0, c1, c2 = command.angle
-    missing = missing_angle(control, p.stiffness, c0 + t * (c1 + t * c2), command.torque, angle, demand.twist)
+    missing = missing_angle(control, p.stiffness, c0 + t * (c1 + t * c2), command.torque, state[ANGLE], demand.twist)
     pumps = fail_safe * (1.0 - bypass)
-    behind = pumps * speed_command(control, circuit, missing, sensed, voltage) - speed
-    return torque_command(control, circuit, behind, integral, sensed), behind
+    behind = pumps * speed_command(control, circuit, missing, sensed, voltage) - state[SPEED]
+    return torque_command(control, circuit, behind, state[INTEGRAL], sensed), behind
 
 
 @inlined
@@ -86,16 +89,16 @@ def axle_rates(p, side, demand, state):
     `side` has what `asked_of` gives as `asked`, the `current` (A) granted for it, and the Running of the drive as
     `electric`; `demand` is a Demand.
     """
-    (torque, behind), electric, speed, sensed, drive = side.asked, side.electric, state[7], state[10], p.drive
+    (torque, behind), electric, drive, speed = side.asked, side.electric, p.drive, state[SPEED]
     braking = drag(drive.machine, speed)
     plant, powers, bar_torque = circuit_rates(
-        p.circuit, p.stiffness, demand.twist, electric.torque - braking, demand.openings, state[0:10]
+        p.circuit, p.stiffness, demand.twist, electric.torque - braking, demand.openings, state[0:SENSED]
     )
     excess = torque - torque_constant(drive.machine) * side.current
     derivatives = (
         *plant,
-        1.0 / p.control.pressure_lag * (state[0] - state[1] - sensed),
+        1.0 / p.control.pressure_lag * (state[0] - state[1] - state[SENSED]),
         integral_rate(p.control, p.circuit, behind, excess),
-        current_rate(drive, state[12], side.current),
+        current_rate(drive, state[CURRENT], side.current),
     )
     return derivatives, (electric.drawn, electric.copper, electric.inverter, braking * speed, *powers), bar_torque

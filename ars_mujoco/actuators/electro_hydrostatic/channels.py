@@ -1,6 +1,6 @@
 """Channels of both axles and their supply, what stands together in plots, and the moments worth a line."""
 
-from ars_mujoco.actuators.electro_hydrostatic.axle import AxleEnergy, AxleState
+from ars_mujoco.actuators.electro_hydrostatic.axle import SENSED, AxleEnergy, AxleState
 from ars_mujoco.actuators.electro_hydrostatic.circuit import stored_energies
 from ars_mujoco.hydraulics.fixed_pump import fixed_pump_extrapolation
 from ars_mujoco.kernels.kernel import kernel
@@ -213,7 +213,7 @@ def report(p, now, energy, out, demand, electric, powers) -> None:
     out.accumulator.pressure, out.relief.power = now.accumulator, relief
     out.valve.bypass, out.valve.fail_safe = now.bypass, now.fail_safe
     share(out.energy, energy)
-    oil, gas, rotor, bar, inertia = stored_energies(p.circuit, p.stiffness, demand.twist, numbers(now)[0:10])
+    oil, gas, rotor, bar, inertia = stored_energies(p.circuit, p.stiffness, demand.twist, numbers(now)[0:SENSED])
     out.energy.oil, out.energy.accumulator, out.energy.rotor = oil, gas, rotor
     out.energy.bar, out.energy.inertia = bar, inertia
 

@@ -73,7 +73,8 @@ def circuit_rates(circuit, bar_stiffness, twist, torque, valves, state):
     taken = motor.displacement * rate + motor_leak + bypassed
     line_a, line_b = delivered - relief_a, -delivered - relief_b
     chamber_a, chamber_b = check_a - taken, check_b + taken
-    pressure_rates, valve_power = _compress(circuit, state, (line_a, line_b, chamber_a, chamber_b))
+    drops = (pump_a - motor_a, pump_b - motor_b)
+    pressure_rates, valve_power = _compress(circuit, fail_safe, drops, (line_a, line_b, chamber_a, chamber_b))
     low_rate = accumulator_rate(circuit.accumulator, low, relief_a + relief_b - check_a - check_b)
 
     loss, friction = loss_torque(pump, speed, over_pump), friction_torque(motor, rate)
@@ -118,13 +119,13 @@ def stored_energies(circuit, bar_stiffness, twist, state):
 
 
 @kernel
-def _compress(circuit, state, flows):
-    # rates of the four pressures under the flows into lines and chambers, and the power lost in the fail-safe valves
-    line_a, line_b, chamber_a, chamber_b = flows
+def _compress(circuit, opening, drops, flows):
+    # rates of the four pressures under the flows into lines and chambers; and the power lost in the fail-safe valves,
+    # under the pressure drops from lines to chambers
+    (drop_a, drop_b), (line_a, line_b, chamber_a, chamber_b) = drops, flows
     valve, side = circuit.fail_safe_valve, 2.0 * circuit.lines.capacitance
     if valve.flow > 0.0:
-        drop_a, drop_b = state[0] - state[2], state[1] - state[3]
-        flow_a, flow_b = fail_safe_flow(valve, state[6], drop_a), fail_safe_flow(valve, state[6], drop_b)
+        flow_a, flow_b = fail_safe_flow(valve, opening, drop_a), fail_safe_flow(valve, opening, drop_b)
         chamber = circuit.lines.chamber_share * side
         line = side - chamber
         rates = (

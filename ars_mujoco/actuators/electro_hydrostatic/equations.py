@@ -8,14 +8,13 @@ from collections import namedtuple
 
 import numpy as np
 
-from ars_mujoco.actuators.electro_hydrostatic.axle import POWERS, STATES, Axle, asked_of, axle_rates
+from ars_mujoco.actuators.electro_hydrostatic.axle import CURRENT, POWERS, SPEED, STATES, Axle, asked_of, axle_rates
 from ars_mujoco.kernels.kernel import inlined
 from ars_mujoco.kernels.records import along, zeros
 from ars_mujoco.machines.electric_drive import granted, power_share, running, wish
 from ars_mujoco.machines.electric_supply import ElectricSupply, budget, supply_rates, terminal_voltage
 from ars_mujoco.schema.parameters import record_dtype
 
-SPEED, CURRENT = 7, 12  # of AxleState
 SUPPLY, SUPPLY_POWERS = 2 * STATES, 2 * POWERS  # where the supply's begin, after front and rear
 
 PARAMETERS = np.dtype(

@@ -22,6 +22,7 @@ from eha_runs import (
     switch,
     time_constant,
 )
+from shipped import recording
 
 from ars_mujoco.schema.errors import InputError
 
@@ -93,6 +94,14 @@ def test_a_tripped_circuit_is_not_pumped_against():
         run = bench_run(ramp_to(600), 3.0, *settings, inputs=fault)
         assert run["front.machine.power"][-1] < 20.0
         assert run["front.relief.power"].max() == 0.0
+
+
+def test_a_released_motor_turns_with_its_ends_but_for_its_friction():
+    run = recording("bench_ends_free", "electro_hydrostatic")
+    late = after(run, 0.5)  # at the start the ends jerk
+    rate, inertia = np.abs(run["front.motor.rate"][late]).max(), 0.175 * math.asin(0.02 / 0.15) * (3.0 * math.pi) ** 2
+    assert np.abs(run["front.bar.torque"][late]).max() == pytest.approx(35.0 + 16.5 * rate, abs=inertia)
+    assert np.abs(run["front.pump.speed"]).max() < 0.1
 
 
 def test_a_valve_that_is_not_there_cannot_be_commanded():
