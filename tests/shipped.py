@@ -50,6 +50,13 @@ def driven(shared: Simulation, seconds: float) -> mujoco.MjData:
     return data
 
 
+def drive_on(simulation: Simulation, data: mujoco.MjData, steps: int = 300) -> np.ndarray:
+    """The state that `data` is in after so many steps more."""
+    with installed(simulation.rig, simulation.model, data):
+        mujoco.mj_step(simulation.model, data, steps)
+    return state_of(simulation.model, data)
+
+
 def state_of(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
     """Everything that a run is restored from, userdata included."""
     state = np.empty(mujoco.mj_stateSize(model, INTEGRATION))

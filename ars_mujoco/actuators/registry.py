@@ -10,7 +10,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Annotated, Any, get_args, get_origin
 
-from pydantic import Field
+from pydantic import Field, TypeAdapter
 
 from ars_mujoco.actuators.system import check_data, system_of
 from ars_mujoco.schema.errors import InputError
@@ -36,6 +36,11 @@ def systems() -> dict[str, ModuleType]:
 def actuator_schema() -> Any:
     """The union of all that a shipped system's file can hold, told apart by its `kind`."""
     return Annotated[reduce(or_, [each.File for each in systems().values()]), Field(discriminator="kind")]
+
+
+def bare(kind: str) -> Parameters:
+    """The file of a kind that has no parameters, as "locked"."""
+    return TypeAdapter(actuator_schema()).validate_python({"kind": kind})
 
 
 def own_system(path: Path) -> ModuleType:

@@ -1,7 +1,5 @@
 """The callback's contract: once a step, everything in mjData, and a run that goes on bit for bit from any restore."""
 
-import subprocess
-import sys
 from copy import copy
 
 import mujoco
@@ -9,6 +7,8 @@ import numpy as np
 import pytest
 import shipped
 from mujoco.batch import Batch
+from shipped import drive_on
+from twins import twins_apart
 
 from ars_mujoco.bridge import world as worlds
 from ars_mujoco.bridge.callback import installed
@@ -44,12 +44,6 @@ def middle(sedan):
 def end(sedan, middle):
     """The state ON steps later, driven without a break."""
     return drive_on(sedan, shipped.restored(sedan.model, middle))
-
-
-def drive_on(simulation, data, steps: int = ON) -> np.ndarray:
-    with installed(simulation.rig, simulation.model, data):
-        mujoco.mj_step(simulation.model, data, steps)
-    return shipped.state_of(simulation.model, data)
 
 
 def set_front_pump_speed(simulation, data, speed: float) -> None:
@@ -92,7 +86,10 @@ def test_runge_kutta_is_refused_and_the_error_says_why(sedan):
 
 
 def test_a_model_of_another_rig_is_refused(sedan):
-    with pytest.raises(ArsError, match="not built for the rig 'bench'"), installed(shipped.simulation(BENCH).rig, sedan.model, sedan.start()):
+    with (
+        pytest.raises(ArsError, match="not built for the rig 'bench'"),
+        installed(shipped.simulation(BENCH).rig, sedan.model, sedan.start()),
+    ):
         pass
 
 
@@ -277,47 +274,6 @@ def test_a_batch_that_is_reset_begins_anew(sedan):
 
 
 # ---- the interpreted twin
-
-TWIN = """
-import sys
-from importlib import import_module
-from ars_mujoco.rigs.rig import rig
-import mujoco, numpy as np
-from ars_mujoco.bridge.callback import installed
-from ars_mujoco.kernels.kernel import interpreted
-assert interpreted
-folder, name, system, steps = sys.argv[1], sys.argv[2], sys.argv[3], int(sys.argv[4])
-pair = rig(name, import_module(system))
-model = mujoco.MjModel.from_binary_path(f"{folder}/model.mjb")
-data = mujoco.MjData(model)
-mujoco.mj_setState(model, data, np.load(f"{folder}/state.npy"), mujoco.mjtState.mjSTATE_INTEGRATION)
-worlds = []
-with installed(pair, model, data):
-    for _ in range(steps):
-        mujoco.mj_step(model, data)
-        worlds.append(data.userdata.copy())
-np.save(f"{folder}/interpreted.npy", worlds)
-"""
-
-
-def twins_apart(simulation, data, steps, folder, monkeypatch) -> float:
-    """The largest difference in the world, relative to each number's peak, of `steps` compiled steps from `data` and of
-    the same interpreted.
-    """
-    mujoco.mj_saveModel(simulation.model, str(folder / "model.mjb"))
-    np.save(folder / "state.npy", shipped.state_of(simulation.model, data))
-    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
-    pair = (simulation.rig.NAME, simulation.rig.system.__name__)
-    subprocess.run([sys.executable, "-c", TWIN, str(folder), *pair, str(steps)], check=True)
-    compiled = []
-    with installed(simulation.rig, simulation.model, data):
-        for _ in range(steps):
-            mujoco.mj_step(simulation.model, data)
-            compiled.append(data.userdata.copy())
-    compiled, interpreted = np.array(compiled), np.load(folder / "interpreted.npy")
-    apart = np.abs(interpreted - compiled).max(axis=0) / np.maximum(np.abs(compiled).max(axis=0), 1e-300)
-    print(f"{apart.max():.1e} apart, relative to each number's peak")
-    return apart.max()
 
 
 @pytest.mark.parametrize(("cycle", "settings"), CASES)

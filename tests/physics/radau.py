@@ -14,8 +14,6 @@ Signs of the losses: the pump's shaft always turns forward, so its torque loss i
 (X, dp) and takes |X| and |dp|; shaft power is negative only where the hydraulic power returned exceeds that loss.
 """
 
-# ruff: noqa: N802 (the symbols are the paper's)
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 import shipped
-from test_callback import drive_on, twins_apart
+from shipped import drive_on
+from twins import twins_apart
 
 S_CURVE, BENCH, FULL = "s_curve_120kmh", "bench_s_curve", "pump_controlled_full"
 STAGES = ("third_order", "reduced", "full")

@@ -1,8 +1,7 @@
 """Set-up of the bench."""
 
-from ars_mujoco.actuators.registry import module_of, system_for
+from ars_mujoco.actuators.registry import bare, module_of, system_for
 from ars_mujoco.actuators.system import Torsion, is_active
-from ars_mujoco.actuators.torsion_bar.system import Locked
 from ars_mujoco.bridge.callback import tables_of
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.manoeuvres.cycle import Cycle
@@ -39,7 +38,7 @@ def set_up(cycle: Cycle, actuator: Parameters, controller: Controller, vehicle: 
 def _driven(actuator: Parameters, motor: str) -> Parameters:
     """The actuator with its motor commanded, held or free."""
     if motor == "held":
-        return Locked(kind="locked")
+        return bare("locked")
     if motor == "commanded":
         return actuator
     module = module_of(actuator)

@@ -1,8 +1,8 @@
 """Pump-controlled bars: what their files must hold for the stage of simplification that they name."""
 
 import pytest
-from ars_mujoco.actuators.pump_controlled.file import FullPumpControlled, PumpControlled
 
+from ars_mujoco.actuators.pump_controlled.file import FullPumpControlled, PumpControlled
 from ars_mujoco.schema.errors import InputError
 from ars_mujoco.schema.library import shipped
 from ars_mujoco.studies.inputs import read_inputs
