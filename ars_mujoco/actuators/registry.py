@@ -20,6 +20,7 @@ SYSTEMS = (
     "torsion_bar",
     "pump_controlled",
     "electromechanical",
+    "electro_hydrostatic",
 )
 
 _own: list[ModuleType] = []  # brought by users, in this process

@@ -2,11 +2,13 @@
 
 import math
 
+from ars_mujoco.hydraulics.orifice import rounded_root
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.schema.parameters import Parameters, quantity
 
 SHUT = 0.05  # opening under which no oil passes
 LAMINAR_SHARE = 0.05  # of the rated flow, below which its orifice flows laminar
+ROUNDING = 1e5  # Pa, below which it does where the pressures on both its sides are states
 
 
 class FailSafeValve(Parameters):
@@ -31,3 +33,13 @@ def fail_safe_drop(valve, opening: float, flow: float) -> float:
     relative = flow / (valve.flow * opening)
     laminar = LAMINAR_SHARE / opening
     return valve.pressure * relative * math.sqrt(relative * relative + laminar * laminar)
+
+
+@kernel
+def fail_safe_flow(valve, opening: float, difference: float) -> float:
+    """Flow (m^3/s) that a pressure difference (Pa) drives through an opening, with its sign; none through one that is
+    shut.
+    """
+    if is_shut(valve, opening):
+        return 0.0
+    return opening * valve.flow / math.sqrt(valve.pressure) * rounded_root(difference, ROUNDING)

@@ -27,7 +27,7 @@ def friction_torque(motor, rate: float) -> float:
     dry = motor.coulomb_friction
     if motor.static_friction > 0.0:
         dry += motor.static_friction * math.exp(-motor.static_decay * abs(rate))
-    return dry * _rounded_sign(1.0 / motor.friction_speed * rate) + motor.viscous_friction * rate
+    return dry * rounded_sign(1.0 / motor.friction_speed * rate) + motor.viscous_friction * rate
 
 
 @kernel
@@ -41,6 +41,7 @@ def stop_torque(motor, angle: float) -> float:
 
 
 @kernel
-def _rounded_sign(x: float) -> float:
-    # tanh(x) by the exponential, which compilers know to have no side effects: constants stay out of the loop
+def rounded_sign(x: float) -> float:
+    """tanh(x): the sign of dry friction, rounded over |x| < 1."""
+    # by the exponential, which compilers know to have no side effects: constants stay out of the loop
     return math.copysign(1.0 - 2.0 / (math.exp(min(2.0 * abs(x), 700.0)) + 1.0), x)

@@ -23,11 +23,10 @@ def loss_extrapolation(run: Run) -> Value:
 def _farthest(run: Run, block: str, far: np.ndarray) -> str:
     """When the pump of a block first leaves the range of its losses, and where it is farthest outside."""
     time, i = run.recording.time, int(np.argmax(far))
-    stroke, speed, pressure = (
-        abs(run.recording[f"{block}.{name}"][i]) for name in ("pump.stroke", "pump.speed", "motor.pressure")
-    )
+    speed, pressure = (abs(run.recording[f"{block}.{name}"][i]) for name in ("pump.speed", "motor.pressure"))
+    stroke = f"{block}.pump.stroke"  # a pump of fixed displacement has none
+    part = f"stroke {100 * abs(run.recording[stroke][i]):.1f} %, " if stroke in run.recording.channels else ""
     return (
         f"the losses of the {block} pump are extrapolated from {time[far > 0.0][0]:.3f} s on, at most by "
-        f"{100 * far[i]:.2g} % at {time[i]:.3f} s (stroke {100 * stroke:.1f} %, {speed / RPM:.0f} rpm, "
-        f"{pressure / BAR:.1f} bar)"
+        f"{100 * far[i]:.2g} % at {time[i]:.3f} s ({part}{speed / RPM:.0f} rpm, {pressure / BAR:.1f} bar)"
     )

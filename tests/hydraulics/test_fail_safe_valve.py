@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from records import filled
 
-from ars_mujoco.hydraulics.fail_safe_valve import FailSafeValve, fail_safe_drop, is_shut
+from ars_mujoco.hydraulics.fail_safe_valve import FailSafeValve, fail_safe_drop, fail_safe_flow, is_shut
 
 BAR = 1e5
 RATED = 20e-3 / 60  # m^3/s
@@ -38,3 +38,9 @@ def test_its_drop_is_odd_and_takes_energy(opening, flow):
 @pytest.mark.parametrize(("opening", "shut"), [(0.0, True), (0.049, True), (0.05, False), (1.0, False)])
 def test_it_is_shut_below_a_twentieth_of_its_stroke(opening, shut):
     assert is_shut(VALVE, opening) == shut
+
+
+def test_the_flow_through_it_is_rated_too_and_there_is_none_through_a_shut_one():
+    assert fail_safe_flow(VALVE, 1.0, 2 * BAR) == pytest.approx(RATED * (1.0 + 0.25) ** -0.25, rel=1e-9)
+    assert fail_safe_flow(VALVE, 0.5, -2 * BAR) == -0.5 * fail_safe_flow(VALVE, 1.0, 2 * BAR)
+    assert fail_safe_flow(VALVE, 0.049, 200 * BAR) == 0.0
