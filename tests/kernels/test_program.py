@@ -13,12 +13,13 @@ import numba
 import numpy as np
 import pytest
 
+from ars_mujoco.actuators.pump_controlled import full_stage
 from ars_mujoco.bridge import native_loop
 from ars_mujoco.bridge.callback import record_at
 from ars_mujoco.kernels import program
 from ars_mujoco.kernels.kernel import interpreted, kernel
 from ars_mujoco.kernels.program import UntoldError, digest
-from ars_mujoco.rigs import sedan
+from ars_mujoco.rigs.rig import rig
 
 pytestmark = pytest.mark.skipif(interpreted, reason="nothing is compiled with NUMBA_DISABLE_JIT=1")
 
@@ -348,23 +349,25 @@ def test_the_digest_of_the_whole_car_takes_less_than_a_tenth_of_a_second():
     def seconds() -> float:
         program._instructions.cache_clear()
         before = time.process_time()
-        digest(sedan.CALLBACK.function)
+        digest(rig("sedan", full_stage).CALLBACK.function)
         return time.process_time() - before
 
     assert min(seconds() for _ in range(3)) < 0.1
 
 
 TOLD = """
+from ars_mujoco.actuators.electromechanical import system
+from ars_mujoco.actuators.pump_controlled import third_order_stage
 from ars_mujoco.bridge import native_loop
-from ars_mujoco.hydraulics import vane_motor
 from ars_mujoco.kernels.program import digest
-from ars_mujoco.rigs import bench
-print(digest(bench.CALLBACK.function), digest(native_loop._advance))
+from ars_mujoco.rigs.rig import rig
+callbacks = (rig("bench", each).CALLBACK for each in (third_order_stage, system))
+print(*(digest(each.function) for each in callbacks), digest(native_loop._advance))
 """
 
 
 def digests(place: Path, seed: str = "0") -> list[str]:
-    """Of the bench's callback, which has a vane motor, and of the loop, which has none, in a process of its own."""
+    """Of the bench with a vane motor and with an electric one, and of the loop around them, in a process of its own."""
     environment = os.environ | {"PYTHONPATH": str(place), "PYTHONHASHSEED": seed}
     command = [sys.executable, "-c", TOLD]
     done = subprocess.run(command, cwd=place, env=environment, capture_output=True, text=True, check=True, timeout=120)
@@ -374,17 +377,17 @@ def digests(place: Path, seed: str = "0") -> list[str]:
 def test_edits_of_the_package_change_the_keys_of_what_they_reach(tmp_path):
     package = tmp_path / PACKAGE.name
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
-    bench, loop = digests(tmp_path)
+    vane, electric, loop = digests(tmp_path)
     assert loop == digest(native_loop._advance)  # another process and place, the same key
 
-    for file in ("cli/app.py", "recording/plots.py", "hydraulics/vane_motor.py", "bridge/native_loop.py"):
+    for file in ("cli/app.py", "recording/recording.py", "hydraulics/vane_motor.py", "bridge/native_loop.py"):
         text = (package / file).read_text()
         (package / file).write_text("'''Another docstring.'''\n\n" + text + "\n\ndef unreached():\n    return 1.0\n")
-    assert digests(tmp_path, seed="1") == [bench, loop]
+    assert digests(tmp_path, seed="1") == [vane, electric, loop]
 
     file = package / "hydraulics" / "vane_motor.py"
     text = file.read_text()
     at = text.index("return", text.index("@kernel"))
     file.write_text(text[:at] + "return 1.5 * " + text[at + len("return ") :])
     edited = digests(tmp_path)
-    assert edited[0] != bench and edited[1] == loop
+    assert edited[0] != vane and edited[1:] == [electric, loop]
