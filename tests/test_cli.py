@@ -74,7 +74,7 @@ def test_a_run_writes_its_folder(ars, tmp_path):
     status, out, _ = ars("run", "small.yaml", "--out", "here")
     assert status == 0
     assert "energy_audit_error" in out
-    folder = tmp_path / "here" / "pump_controlled"
+    folder = tmp_path / "here" / "verification"
     assert sorted(path.name for path in folder.iterdir()) == ["run.parquet", "run.rrd", "summary.json"]
     schema = pq.read_schema(folder / "run.parquet")
     assert schema.names[0] == "time"
@@ -84,7 +84,7 @@ def test_a_run_writes_its_folder(ars, tmp_path):
 def test_the_same_command_twice_gives_the_same_columns(ars, tmp_path):
     for out in ("once", "twice"):
         assert ars("run", "small.yaml", "--out", out)[0] == 0
-    once, twice = (pq.read_table(tmp_path / out / "pump_controlled" / "run.parquet") for out in ("once", "twice"))
+    once, twice = (pq.read_table(tmp_path / out / "verification" / "run.parquet") for out in ("once", "twice"))
     assert once.equals(twice)
 
 
@@ -93,7 +93,7 @@ def test_a_run_is_machine_readable(ars):
     result = json.loads(out)
     assert status == 0
     assert result["folder"] == "runs/small"
-    inputs = result["runs"]["pump_controlled"]["inputs"]
+    inputs = result["runs"]["verification"]["inputs"]
     assert inputs["actuator"]["overrides"] == ["--set actuator.front.pump.speed=1500 rpm"]
     assert inputs["actuator"]["values"]["front"]["pump"]["speed"] == pytest.approx(157.0796)
 
@@ -190,7 +190,7 @@ def test_a_run_that_leaves_the_range_of_its_losses_says_so(ars):
         (["run", "x.**"], "no cycle 'x.**'; shipped: "),
         (
             ["run", "small.yaml", "--out", "small.yaml/out"],
-            "small.yaml/out/pump_controlled: cannot be written to: Not a directory",
+            "small.yaml/out/verification: cannot be written to: Not a directory",
         ),
         (
             ["run", "roll_plane_step", "--set", "vehicle.mass=1e300 kg"],

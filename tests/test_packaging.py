@@ -58,6 +58,6 @@ def test_its_command_lists_what_is_shipped(installed, away):
 
 def test_its_command_runs_a_cycle(installed, away, tmp_path):
     result = json.loads(away(installed / "bin" / "ars", "run", "bench_step_1deg", "--set", "duration=50 ms", "--json"))
-    assert result["runs"]["pump_controlled"]["metrics"]["energy_audit_error"]["value"] < 1e-3
-    folder = tmp_path / "here" / "runs" / "bench_step_1deg" / "pump_controlled"
+    assert result["runs"]["verification"]["metrics"]["energy_audit_error"]["value"] < 1e-3
+    folder = tmp_path / "here" / "runs" / "bench_step_1deg" / "verification"
     assert sorted(path.name for path in folder.iterdir()) == ["run.parquet", "run.rrd", "summary.json"]

@@ -17,7 +17,7 @@ from ars_mujoco.reproduce.claim import (
     holds,
     holds_only,
 )
-from ars_mujoco.reproduce.evidence import FULL, S_CURVE, Evidence
+from ars_mujoco.reproduce.evidence import FULL, PAPERS_LOOP, S_CURVE, Evidence
 from ars_mujoco.reproduce.valve_systems import SYSTEMS, idle_power, shaft_energy
 
 REVERSAL = (14.0, 18.0)  # s, "second 14 to second 18"
@@ -172,7 +172,7 @@ def loss_and_flow(evidence: Evidence) -> Finding:
 
 @GROUP.claim("section 2", "There are no throttling losses within the main power lines.")
 def throttling(evidence: Evidence) -> Finding:
-    run = evidence.run(S_CURVE, actuator=FULL)
+    run = evidence.run(S_CURVE, *PAPERS_LOOP, actuator=FULL)
     shaft, *lost = (float(run[f"front.energy.{name}"][-1]) for name in ("shaft", "line", "check", "relief"))
     return Finding(
         ours=(

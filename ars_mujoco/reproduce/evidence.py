@@ -25,6 +25,7 @@ from ars_mujoco.studies.inputs import Inputs, read_inputs
 from ars_mujoco.studies.study import simulation_of
 
 FULL = "pump_controlled_full"  # the actuator with lines, oil and a pump control of their own
+PAPERS_LOOP = ("actuator.control.loop.gain=60 1/rad", "actuator.control.loop.schedule=0")  # K_p, fixed
 S_CURVE, SMALL_STEP, LARGE_STEP = "bench_s_curve", "bench_step_1deg", "bench_step_10deg"
 
 
@@ -51,7 +52,7 @@ class Evidence:
         self.c, self.K_p = self.loop.stiffness, self.loop.gain
         self.pump_share, self.leakages = float(pump.leakage) / self.k, TABLE_2["leakage"]
         self.cylinder, self.edge = circuit.control_cylinder, circuit.metering_edge
-        self.full_inputs = read_inputs(S_CURVE, FULL)
+        self.full_inputs = read_inputs(S_CURVE, FULL, settings=PAPERS_LOOP)
         self.robot_inputs = read_inputs(compensators.ROBOT)
         self.full_loop = loop_of(self.full_inputs)
         self.pipe, self.fluid = self.full_loop.detail.pipe, self.full_loop.detail.fluid

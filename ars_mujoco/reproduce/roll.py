@@ -133,8 +133,8 @@ def _swept(evidence: Evidence, size: float) -> tuple[np.ndarray, np.ndarray]:
     """Bandwidths (n,) Hz of the linear loop and roll reduction factors (n,) over GAINS."""
     found = []
     for gain in GAINS:
-        settings = (f"controller.loop.gain={gain} 1/rad", *CONTINUOUS)
-        loop = loop_of(read_inputs(S_CURVE, controller=CONTROLLER, settings=[*evidence.settings, *settings]))
+        settings = (f"actuator.control.loop.gain={gain} 1/rad", *CONTINUOUS)
+        loop = loop_of(read_inputs(S_CURVE, "pump_controlled", CONTROLLER, settings=[*evidence.settings, *settings]))
         loop_margins = margins(sampled_loop(loop, loop.unit.sample_time, loop.unit.delay))
         found.append((loop_margins["bandwidth"], _factor(evidence, size, *settings)))
     return tuple(np.transpose(found))

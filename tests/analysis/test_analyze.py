@@ -37,7 +37,7 @@ def test_it_writes_numbers_and_figures_of_every_analysis(analyze, monkeypatch, t
         numbers = json.loads((folder / f"{name}.json").read_text())
         assert numbers == printed["analyses"][name]
         assert numbers["units"]
-        assert numbers["inputs"]["controller"]["overrides"] == ["--set actuator.control.loop.gain=30 1/rad"]
+        assert numbers["inputs"]["actuator"]["overrides"] == ["--set actuator.control.loop.gain=30 1/rad"]
     assert printed["analyses"]["margins"]["gain"]["value"] == 30.0
 
 

@@ -21,9 +21,9 @@ def recorded(simulation, data, python=False, channels=12):
     """(steps made, times, values, poses) from `data` on."""
     times, values = np.full(STEPS, np.nan), np.full((STEPS, channels), np.nan)
     poses = np.full((len(range(-MADE_BEFORE % STRIDE, STEPS, STRIDE)), simulation.model.nbody, 7), np.nan)
-    slot = simulation.rig.WORLD.fields["out"][1] // 8
+    slots = simulation.rig.slots[:channels]
     with installed(simulation.rig, simulation.model, data):
-        made = advance(simulation.model, data, times, values, poses, STRIDE, slot, MADE_BEFORE, python)
+        made = advance(simulation.model, data, times, values, poses, STRIDE, slots, MADE_BEFORE, python)
     return made, times, values, poses
 
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from ars_mujoco.actuators.actuator import Actuator
 from bench import circuit
 
+from ars_mujoco.actuators.registry import actuator_schema
 from ars_mujoco.hydraulics.pump import extrapolation, flow_loss, ideal_flow, torque_loss
 from ars_mujoco.schema.document import override, read
 from ars_mujoco.schema.errors import InputError
@@ -64,7 +64,7 @@ def test_the_range_of_either_loss_counts():
 def test_a_speed_outside_the_range_of_a_loss_is_refused():
     setting = override("front.pump.speed=7000 rpm")
     with pytest.raises(InputError) as refused:
-        read(Actuator, "pump_controlled", "actuator", [setting])
+        read(actuator_schema(), "pump_controlled", "actuator", [setting])
     assert "front.pump: speed: 7000 rpm is outside the range of torque_loss; allowed: 500 to 6500 rpm" in str(
         refused.value
     )

@@ -54,8 +54,8 @@ def test_an_unknown_name_is_answered_with_the_nearest_and_all():
     with pytest.raises(InputError) as error:
         library.find("actuator", "pasive")
     assert str(error.value) == (
-        "no actuator 'pasive'; did you mean 'passive'? shipped: locked, none, passive, pump_controlled, "
-        "pump_controlled_full, robot_joint"
+        "no actuator 'pasive'; did you mean 'passive'? shipped: electro_hydrostatic, electromechanical, locked, "
+        "none, passive, pump_controlled, pump_controlled_full, robot_joint, verification"
     )
 
 

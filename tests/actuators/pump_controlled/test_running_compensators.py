@@ -12,6 +12,7 @@ from ars_mujoco.bridge.callback import installed
 from ars_mujoco.bridge.world import view
 from ars_mujoco.schema.errors import InputError
 from ars_mujoco.studies.inputs import read_inputs
+from ars_mujoco.studies.study import simulation_of
 
 SAMPLED = "controller.unit.sample_time=2 ms"
 FEEDBACK = ("actuator.control.pressure_feedback.gain=0.05 1/bar", "actuator.control.pressure_feedback.corner=300 rad/s")
@@ -89,12 +90,12 @@ def _gain(gain: str) -> str:
     [
         (
             FEEDBACK,
-            "pressure_feedback: .*a digital filter, but the unit is continuous; allowed: with a unit.sample_time",
+            "pressure_feedback: .*a digital filter, but the unit is continuous; allowed: with a controller.unit.sample_time",
         ),
         (COMPENSATOR, "compensator: .*a digital filter, but the unit is continuous"),
         (
             (*COMPENSATOR, "controller.unit.sample_time=5 ms"),
-            "compensator: .*frequency of 834 rad/s is beyond what a unit.sample_time of 5 ms can filter; allowed: less "
+            "compensator: .*frequency of 834 rad/s is beyond what a controller.unit.sample_time of 5 ms can filter; allowed: less "
             "than 628.319 rad/s",
         ),
         ((SAMPLED, _gain("0.1 1/bar")), "pressure_feedback.corner: is missing"),
@@ -103,4 +104,4 @@ def _gain(gain: str) -> str:
 )
 def test_what_no_unit_can_filter_is_refused(settings, expected):
     with pytest.raises(InputError, match=expected):
-        read_inputs("bench_step_1deg", settings=settings)
+        simulation_of(read_inputs("bench_step_1deg", settings=settings))

@@ -1,17 +1,17 @@
 """Temperature: what an oil that is not at 50 degC changes in the parameters, and what it must not."""
 
 import pytest
-from ars_mujoco.actuators.actuator import Actuator
 from detailed import drive
 from hypothesis import given
 from hypothesis import strategies as st
 
 from ars_mujoco.actuators.pump_controlled.temperature import THICKER, THINNER, at_temperature
+from ars_mujoco.actuators.registry import actuator_schema
 from ars_mujoco.hydraulics.oil import fluid, viscosity_ratio
 from ars_mujoco.schema.document import read
 
-FULL = read(Actuator, "pump_controlled_full", "actuator").value.front
-VERIFICATION = read(Actuator, "pump_controlled", "actuator").value.front
+FULL = read(actuator_schema(), "pump_controlled_full", "actuator").value.front
+VERIFICATION = read(actuator_schema(), "pump_controlled", "actuator").value.front
 
 
 def warmed(circuit, celsius):
