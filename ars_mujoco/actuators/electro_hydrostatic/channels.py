@@ -5,26 +5,11 @@ from ars_mujoco.actuators.electro_hydrostatic.circuit import stored_energies
 from ars_mujoco.hydraulics.fixed_pump import fixed_pump_extrapolation
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.records import numbers, share
-from ars_mujoco.machines.electric_supply import store_energy, terminal_voltage
-from ars_mujoco.schema.channels import channel, delivered, drawn, lost, stored
+from ars_mujoco.machines.supply_channels import SHED, SUPPLY_TAB, SupplyEnergy, SupplyOutput, SupplyState
+from ars_mujoco.schema.channels import channel, stored
 from ars_mujoco.schema.events import Condition
 from ars_mujoco.schema.parameters import Parameters
 from ars_mujoco.schema.plots import Plot, Tab, axles
-
-
-class SupplyState(Parameters):
-    store: float = channel("V", "voltage of the store", scale=1e-4)
-    converter: float = channel("W", "power of the converter to the store", scale=1e-1)
-
-
-class SupplyEnergy(Parameters):
-    """Energies of the supply since the start, in the order of the powers of `supply_rates`."""
-
-    source: float = drawn("drawn from the source")
-    converter: float = lost("lost in the converter")
-    line: float = lost("lost in the line to the drives")
-    controllers: float = lost("drawn by control units")
-    loads: float = delivered("delivered to both drives, less what they gave back")
 
 
 class State(Parameters):
@@ -90,11 +75,11 @@ class ValveOutput(Parameters):
 
 
 class EnergyOutput(AxleEnergy):
-    oil: float = stored("in the oil's compression")
-    accumulator: float = stored("in the gas of the accumulator")
-    rotor: float = stored("in the inertia of machine and pump")
-    bar: float = stored("in the bar's torsion and the motor's mechanical stop")
-    inertia: float = stored("in the motor's inertia")
+    oil: float = stored("stored in the oil's compression")
+    accumulator: float = stored("stored in the gas of the accumulator")
+    rotor: float = stored("stored in the inertia of machine and pump")
+    bar: float = stored("stored in the bar's torsion and the motor's mechanical stop")
+    inertia: float = stored("stored in the motor's inertia")
 
 
 class AxleOutput(Parameters):
@@ -108,18 +93,6 @@ class AxleOutput(Parameters):
     relief: ReliefOutput
     valve: ValveOutput
     energy: EnergyOutput
-
-
-class SupplyEnergyOutput(SupplyEnergy):
-    store: float = stored("in the store, over what it has at its nominal voltage")
-
-
-class SupplyOutput(Parameters):
-    voltage: float = channel("V", "voltage at the drives")
-    power: float = channel("W", "power of the converter")
-    load: float = channel("W", "power of both drives together")
-    share: float = channel("1", "share that the drives get of the power they wish for")
-    energy: SupplyEnergyOutput
 
 
 class Output(Parameters):
@@ -162,14 +135,7 @@ PLOTS = (
             Plot("energy since the start", axles("energy.electrical")),
         ),
     ),
-    Tab(
-        "supply",
-        (
-            Plot("supply voltage", ("supply.voltage",)),
-            Plot("supply power", ("supply.power", "supply.load")),
-            Plot("share of the power asked for", ("supply.share",)),
-        ),
-    ),
+    SUPPLY_TAB,
 )
 LOW = 1e5  # Pa, absolute: below it oil gives off its air
 
@@ -188,7 +154,7 @@ def _events(axle: str) -> tuple[Condition, ...]:
 EVENTS = (
     *_events("front"),
     *_events("rear"),
-    Condition("supply.share", "below", 0.999, "WARN", "the supply sheds load: both axles get less than they ask"),
+    SHED,
 )
 
 
@@ -216,12 +182,3 @@ def report(p, now, energy, out, demand, electric, powers) -> None:
     oil, gas, rotor, bar, inertia = stored_energies(p.circuit, p.stiffness, demand.twist, numbers(now)[0:SENSED])
     out.energy.oil, out.energy.accumulator, out.energy.rotor = oil, gas, rotor
     out.energy.bar, out.energy.inertia = bar, inertia
-
-
-@kernel
-def report_supply(supply, now, energy, out, load: float, granted: float) -> None:
-    """What the supply records under a load (W), where the drives get the share `granted` of what they wish for."""
-    out.voltage, out.power = terminal_voltage(supply, now.store, load), now.converter
-    out.load, out.share = load, granted
-    share(out.energy, energy)
-    out.energy.store = store_energy(supply, now.store)

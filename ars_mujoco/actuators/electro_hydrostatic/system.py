@@ -18,7 +18,6 @@ from ars_mujoco.actuators.electro_hydrostatic.channels import (
     Output,
     State,
     report,
-    report_supply,
 )
 from ars_mujoco.actuators.electro_hydrostatic.equations import (
     PARAMETERS,
@@ -37,7 +36,7 @@ from ars_mujoco.kernels.kernel import entry, kernel
 from ars_mujoco.kernels.records import numbers
 from ars_mujoco.kernels.substeps import fewest_substeps, scales, slopes
 from ars_mujoco.machines.electric_machine import DRIVEN, SHORTED
-from ars_mujoco.machines.electric_supply import terminal_voltage
+from ars_mujoco.machines.supply_channels import report_supply, rest_supply
 from ars_mujoco.schema.parameters import fill as fill_block
 from ars_mujoco.schema.parameters import record_dtype
 
@@ -143,10 +142,8 @@ def start(record, state) -> None:
         for pressure in PRESSURES:
             axle[pressure] = record[name].circuit.accumulator.pressure
         axle.fail_safe = 1.0
-    supply, drives = record.supply, (record.front.drive, record.rear.drive)
-    standby = drives[0].inverter.standby_power + record.has_rear * drives[1].inverter.standby_power
-    line = supply.line_resistance * (standby / terminal_voltage(supply, supply.voltage, standby)) ** 2
-    state.state.supply.store, state.state.supply.converter = supply.voltage, supply.controller_power + standby + line
+    front, rear = record.front.drive.inverter, record.rear.drive.inverter
+    rest_supply(record.supply, state.state.supply, front.standby_power + record.has_rear * rear.standby_power)
 
 
 def _slopes(record) -> list[np.ndarray]:

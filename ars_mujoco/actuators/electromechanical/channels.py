@@ -1,8 +1,12 @@
 """Channels of the electromechanical bars and their supply."""
 
 from ars_mujoco.actuators.electromechanical.unit import Energy
-from ars_mujoco.schema.channels import channel, delivered, drawn, lost, stored
-from ars_mujoco.schema.events import Condition
+from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.kernels.records import share
+from ars_mujoco.machines.electric_machine import drag
+from ars_mujoco.machines.planetary_gear import gear_friction, mesh_energy, mesh_torque
+from ars_mujoco.machines.supply_channels import SHED, SUPPLY_TAB, SupplyOutput
+from ars_mujoco.schema.channels import channel, stored
 from ars_mujoco.schema.parameters import Parameters
 from ars_mujoco.schema.plots import Plot, Tab, axles
 
@@ -19,7 +23,7 @@ class MachineOutput(Parameters):
     torque: float = channel("Nm", "torque of the machine in its air gap")
     current: float = channel("A", "torque current, amplitude of a phase")
     power: float = channel("W", "electrical power of the unit, negative where it gives back")
-    loss_power: float = channel("W", "lost in windings, inverter, iron and bearings")
+    loss_power: float = channel("W", "lost in windings and inverter")
 
 
 class GearOutput(Parameters):
@@ -43,28 +47,6 @@ class AxleOutput(Parameters):
     energy: EnergyOutput
 
 
-class SupplyEnergy(Parameters):
-    source: float = drawn("drawn from the source by the converter")
-    converter: float = lost("lost in the converter")
-    line: float = lost("lost in the line to the loads")
-    controllers: float = lost("taken by control units")
-    loads: float = delivered("delivered to the units of both axles, less what they gave back")
-
-
-class SupplyEnergyOutput(SupplyEnergy):
-    store: float = stored("stored in the store, over what it holds at its nominal voltage")
-
-
-class SupplyOutput(Parameters):
-    """What the supply records."""
-
-    voltage: float = channel("V", "voltage at the loads")
-    power: float = channel("W", "power of the converter")
-    load: float = channel("W", "power of the loads together")
-    share: float = channel("1", "share that the loads get of the power they ask for")
-    energy: SupplyEnergyOutput
-
-
 class Output(Parameters):
     """What both axles and their supply record."""
 
@@ -84,16 +66,26 @@ PLOTS = (
             Plot("machine power", axles("machine.power")),
         ),
     ),
-    Tab(
-        "supply",
-        (
-            Plot("supply voltage", ("supply.voltage",)),
-            Plot("supply power", ("supply.power", "supply.load")),
-            Plot("share of the power asked for", ("supply.share",)),
-        ),
-    ),
+    SUPPLY_TAB,
 )
 
-EVENTS = (
-    Condition("supply.share", "below", 0.999, "WARN", "the supply sheds load: both axles get less than they ask"),
-)
+EVENTS = (SHED,)
+
+
+@kernel
+def report(axle, state, energy, out, command, twist: float, electric) -> None:
+    """What one axle records; `electric` is the Running of its drive, `twist` (rad) its bar's."""
+    unit, turned, between = axle.unit, state.angle - twist, state.rotor_angle - state.angle
+    gear = unit.gear
+    out.bar.angle, out.bar.command = state.angle, command.angle[0]
+    out.machine.speed, out.machine.current = gear.ratio * state.rotor_rate, state.current
+    out.machine.torque, out.machine.power = electric.torque, electric.drawn
+    out.machine.loss_power = electric.copper + electric.inverter
+    out.gear.torque = mesh_torque(gear, between)
+    braking = drag(unit.drive.machine, out.machine.speed)
+    friction = gear_friction(gear, gear.ratio * (electric.torque - braking), out.gear.torque, state.rotor_rate)
+    out.gear.loss_power = friction * state.rotor_rate
+    share(out.energy, energy)
+    out.energy.bar, out.energy.mesh = 0.5 * axle.stiffness * turned * turned, mesh_energy(gear, between)
+    out.energy.inertia = 0.5 * unit.rotor_inertia * out.machine.speed**2
+    out.energy.bar_inertia = 0.5 * unit.bar_inertia * state.rate**2

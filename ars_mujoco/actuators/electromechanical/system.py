@@ -4,30 +4,23 @@ Both axles and the supply are one set of equations: where the supply's power doe
 of what it asks for.
 """
 
+from collections import namedtuple
 from typing import Literal
 
 import numpy as np
 
-from ars_mujoco.actuators.electromechanical.channels import EVENTS, PLOTS, Output, SupplyEnergy
-from ars_mujoco.actuators.electromechanical.unit import (
-    Energy,
-    State,
-    Unit,
-    electrical_power,
-    granted,
-    unit_rates,
-    wish,
-)
-from ars_mujoco.actuators.system import Beyond, Car, Command, Input, Twist, Twists
+from ars_mujoco.actuators.electromechanical.channels import EVENTS, PLOTS, Output, report
+from ars_mujoco.actuators.electromechanical.unit import Energy, State, Unit, unit_rates, unit_wish
+from ars_mujoco.actuators.system import Beyond, Car, Command, Input
 from ars_mujoco.control.control_unit import BarCommand
 from ars_mujoco.kernels.integration import integrated
 from ars_mujoco.kernels.kernel import inlined, kernel
-from ars_mujoco.kernels.records import numbers, share
+from ars_mujoco.kernels.records import along, numbers, zeros
 from ars_mujoco.kernels.substeps import derivatives, fewest_substeps, scales, slopes
+from ars_mujoco.machines.electric_drive import granted, power_share, running
 from ars_mujoco.machines.electric_machine import DRIVEN, SHORTED, torque_constant
-from ars_mujoco.machines.electric_supply import ElectricSupply, budget, store_energy, supply_rates, terminal_voltage
-from ars_mujoco.machines.planetary_gear import gear_friction, mesh_energy, mesh_torque
-from ars_mujoco.schema.channels import channel
+from ars_mujoco.machines.electric_supply import ElectricSupply, budget, supply_rates, terminal_voltage
+from ars_mujoco.machines.supply_channels import SupplyEnergy, SupplyState, report_supply, rest_supply
 from ars_mujoco.schema.parameters import Parameters, record_dtype
 from ars_mujoco.schema.parameters import fill as fill_block
 
@@ -38,6 +31,7 @@ INPUTS = {
     "rear_phases": Input("1", DRIVEN, SHORTED, DRIVEN),
 }
 FRONT, REAR = range(2)  # of the inputs
+UNIT, SUPPLY = len(State.model_fields), 2 * len(State.model_fields)  # where the rear's states begin, and the supply's
 FAR = 1.6  # rad between the halves of a bar; nothing turns it by more than a quarter
 BEYOND = Beyond("the halves of a bar turned by over a quarter", ("front.bar.angle", "rear.bar.angle"))
 
@@ -49,11 +43,6 @@ class File(Parameters):
     front: Unit
     rear: Unit
     supply: ElectricSupply
-
-
-class SupplyState(Parameters):
-    store: float = channel("V", "voltage of the store", scale=1e-3)
-    converter: float = channel("W", "power of the converter", scale=1e-2)
 
 
 class Equations(Parameters):
@@ -79,43 +68,50 @@ PARAMETERS = np.dtype(
 STATE = np.dtype([("state", record_dtype(Equations)), ("energy", record_dtype(Energies))])
 
 
+# what both axles draw and ask for at an instant: the Running of each drive, the current (A) granted to it, the `load`
+# (W) that both put on the supply, and the share that they get of the power they wish for
+Balance = namedtuple("Balance", "front rear front_current rear_current load share")
+
+
 @inlined
-def _balance(p, command, front_twist, rear_twist, front, rear, store):
-    # voltage at the loads, the powers of both units, what each asks for, and the share that it gets
-    inputs = command.inputs
-    front_power = electrical_power(p.front, front, store, inputs[FRONT])
-    rear_power = electrical_power(p.rear, rear, store, inputs[REAR])
-    if p.has_rear == 0.0:
-        rear_power = (0.0, 0.0, 0.0)
-    load = front_power[0] + rear_power[0]
+def balance(p, demand, state) -> Balance:
+    """What both axles ask of the supply, and what it grants."""
+    command, front_twist, rear_twist = demand
+    front, rear, store = state[0:UNIT], state[UNIT:SUPPLY], state[SUPPLY]
+    front_phases, rear_phases = command.inputs[FRONT], command.inputs[REAR]
+    front_speed, rear_speed = p.front.unit.gear.ratio * front[2], p.rear.unit.gear.ratio * rear[2]
+    front_electric = running(p.front.unit.drive, front[0], front_speed, store, front_phases)
+    rear_electric = running(p.rear.unit.drive, rear[0], rear_speed, store, rear_phases)
+    load = front_electric.drawn + p.has_rear * rear_electric.drawn
     voltage = terminal_voltage(p.supply, store, load)
-    front_wish = wish(p.front, command.front, front_twist, front, voltage)
-    rear_wish = wish(p.rear, command.rear, rear_twist, rear, voltage)
-    wanted = max(front_wish.power, 0.0) * (inputs[FRONT] == DRIVEN)
-    wanted += max(rear_wish.power, 0.0) * (inputs[REAR] == DRIVEN) * p.has_rear
-    there = budget(p.supply, store)
-    part = 1.0 if wanted <= there else there / wanted
-    return voltage, load, front_power, rear_power, front_wish, rear_wish, part
+    front_wish = unit_wish(p.front, command.front, front_twist, front, voltage, front_phases)
+    rear_wish = unit_wish(p.rear, command.rear, rear_twist, rear, voltage, rear_phases)
+    part = power_share(budget(p.supply, store), front_wish.power, p.has_rear * rear_wish.power)
+    return Balance(
+        front_electric,
+        rear_electric,
+        granted(p.front.unit.drive, front_wish, part, front_speed, voltage),
+        granted(p.rear.unit.drive, rear_wish, part, rear_speed, voltage),
+        load,
+        part,
+    )
 
 
 @inlined
 def rates(p, demand, t, state):
     """Derivatives, powers and bar torques (Nm) of both axles on their supply; `demand` is (Command, front twist, rear
-    twist), the twists (rad) held.
+    twist), the twists (rad) held. Without a rear bar, as on the bench, the rear stands still and draws nothing.
     """
-    command, front_twist, rear_twist = demand
-    front, rear, (store, converter) = state[:5], state[5:10], state[10:]
-    voltage, load, front_power, rear_power, front_wish, rear_wish, part = _balance(
-        p, command, front_twist, rear_twist, front, rear, store
+    sides = balance(p, demand, state)
+    front, front_powers, front_torque = unit_rates(p.front, sides.front_current, demand[1], state[0:UNIT], sides.front)
+    rear, rear_powers, rear_torque = unit_rates(p.rear, sides.rear_current, demand[2], state[UNIT:SUPPLY], sides.rear)
+    rear, rear_powers = along(zeros(rear), rear, p.has_rear), along(zeros(rear_powers), rear_powers, p.has_rear)
+    store, converter, supply_powers = supply_rates(p.supply, state[SUPPLY], state[SUPPLY + 1], sides.load)
+    return (
+        (*front, *rear, store, converter),
+        (*front_powers, *rear_powers, *supply_powers),
+        (front_torque, p.has_rear * rear_torque),
     )
-    front_current = granted(p.front, front_wish, part, front, voltage)
-    rear_current = granted(p.rear, rear_wish, part, rear, voltage)
-    a, front_powers, front_torque = unit_rates(
-        p.front, front_current, front_twist, front, front_power, command.inputs[FRONT]
-    )
-    b, rear_powers, rear_torque = unit_rates(p.rear, rear_current, rear_twist, rear, rear_power, command.inputs[REAR])
-    store_rate, converter_rate, supply_powers = supply_rates(p.supply, store, converter, load)
-    return a + b + (store_rate, converter_rate), front_powers + rear_powers + supply_powers, (front_torque, rear_torque)
 
 
 _integrate = integrated(rates)
@@ -125,44 +121,13 @@ _derivatives = derivatives(rates)
 @kernel
 def advance(p, now, later, out, work, command, twists, moment):
     """Both axles over the coming step, see `actuators.system`."""
-    _report(p, now, out, command, twists)
-    front, rear = _integrate(
-        p, now, later, (command, twists.front.held, twists.rear.held), moment.step, int(p.substeps)
-    )
-    return front, rear * p.has_rear
-
-
-@kernel
-def _report(p, now, out, command, twists):
-    states = now.state
-    front, rear = numbers(states.front), numbers(states.rear)
-    voltage, load, front_power, rear_power, _, _, part = _balance(
-        p, command, twists.front.angle, twists.rear.angle, front, rear, states.supply.store
-    )
-    out.supply.voltage, out.supply.power, out.supply.load = voltage, states.supply.converter, load
-    out.supply.share = part
-    share(out.supply.energy, now.energy.supply)
-    out.supply.energy.store = store_energy(p.supply, states.supply.store)
-    _report_unit(p.front, states.front, now.energy.front, out.front, command.front, twists.front.angle, front_power)
-    _report_unit(p.rear, states.rear, now.energy.rear, out.rear, command.rear, twists.rear.angle, rear_power)
-
-
-@kernel
-def _report_unit(axle, state, energy, out, command, twist, power):
-    unit = axle.unit
-    gear, machine, ratio, turned = unit.gear, unit.machine, unit.gear.ratio, state.angle - twist
-    between = state.rotor_angle - state.angle
-    out.bar.angle, out.bar.command = state.angle, command.angle[0]
-    out.machine.speed, out.machine.current = ratio * state.rotor_rate, state.current
-    out.machine.torque = torque_constant(machine) * state.current
-    out.machine.power, out.machine.loss_power = power[0], power[1] + power[2]
-    out.gear.torque = mesh_torque(gear, between)
-    friction = gear_friction(gear, ratio * out.machine.torque, out.gear.torque, state.rotor_rate)
-    out.gear.loss_power = friction * state.rotor_rate
-    share(out.energy, energy)
-    out.energy.bar, out.energy.mesh = 0.5 * axle.stiffness * turned * turned, mesh_energy(gear, between)
-    out.energy.inertia = 0.5 * unit.rotor_inertia * out.machine.speed**2
-    out.energy.bar_inertia = 0.5 * unit.bar_inertia * state.rate**2
+    demand, states, energy = (command, twists.front.angle, twists.rear.angle), now.state, now.energy
+    sides = balance(p, demand, numbers(states))
+    report(p.front, states.front, energy.front, out.front, command.front, twists.front.angle, sides.front)
+    report(p.rear, states.rear, energy.rear, out.rear, command.rear, twists.rear.angle, sides.rear)
+    report_supply(p.supply, states.supply, energy.supply, out.supply, sides.load, sides.share)
+    held = (command, twists.front.held, twists.rear.held)
+    return _integrate(p, now, later, held, moment.step, int(p.substeps))
 
 
 @kernel
@@ -170,8 +135,8 @@ def sense(p, now, sensors) -> None:
     """Angle of each bar, and the torque that its machine gives through the gear (Nm)."""
     front, rear = now.state.front, now.state.rear
     sensors.front_angle, sensors.rear_angle = front.angle, rear.angle
-    sensors.front_torque = p.front.unit.gear.ratio * torque_constant(p.front.unit.machine) * front.current
-    sensors.rear_torque = p.rear.unit.gear.ratio * torque_constant(p.rear.unit.machine) * rear.current
+    sensors.front_torque = p.front.unit.gear.ratio * torque_constant(p.front.unit.drive.machine) * front.current
+    sensors.rear_torque = p.rear.unit.gear.ratio * torque_constant(p.rear.unit.drive.machine) * rear.current
 
 
 @kernel
@@ -204,8 +169,5 @@ def start(record, state) -> None:
 
 
 def _rest(record, state) -> None:
-    supply, units = record.supply, (record.front.unit, record.rear.unit)
-    standby = units[0].inverter.standby_power + record.has_rear * units[1].inverter.standby_power
-    state.supply.store = supply.voltage
-    voltage = terminal_voltage(supply, supply.voltage, standby)
-    state.supply.converter = supply.controller_power + standby + supply.line_resistance * (standby / voltage) ** 2
+    front, rear = record.front.unit.drive.inverter, record.rear.unit.drive.inverter
+    rest_supply(record.supply, state.supply, front.standby_power + record.has_rear * rear.standby_power)

@@ -109,7 +109,7 @@ def test_shorted_it_gives_in_like_a_damper_of_1_44_s(stiffness):
     """tau = 1.5 p^2 psi^2 i^2/R (1/c + 1/c_g) once the rotor is slow: 1.64 s with the gear's own torsion."""
     frictionless = [
         f"actuator.front.gear.{name}" for name in ("friction=0 Nm", "damping=0 Nms/rad", "efficiency=1")
-    ] + [f"actuator.front.machine.{name}" for name in ("friction=0 Nm", "hysteresis=0 Nm", "iron=0 Nms/rad")]
+    ] + [f"actuator.front.drive.machine.{name}" for name in ("friction=0 Nm", "hysteresis=0 Nm", "iron=0 Nms/rad")]
     run = step(
         600, "duration=4 s", "inputs.front_phases={join: step, knots: [[0 s, 1], [0.5 s, -1]]}", *frictionless,
         f"actuator.front.gear.stiffness={stiffness} Nm/rad",

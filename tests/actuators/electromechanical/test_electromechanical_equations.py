@@ -118,7 +118,9 @@ def advanced(p, now, later, torque: float, count: int) -> tuple[float, ...]:
 
 def test_its_modes_are_those_of_two_inertias_on_two_springs():
     """A few Hz of the rotor on the bar, and 80 Hz of the output between gear and bar, without loops and friction."""
-    dragless = [f"actuator.front.machine.{each}" for each in ("friction=0 Nm", "hysteresis=0 Nm", "iron=0 Nms/rad")]
+    dragless = [
+        f"actuator.front.drive.machine.{each}" for each in ("friction=0 Nm", "hysteresis=0 Nm", "iron=0 Nms/rad")
+    ]
     undamped = ("actuator.front.gear.damping=0 Nms/rad", "actuator.front.bar_damping=0 Nms/rad")
     p, state = own(*FRICTIONLESS, *dragless, *undamped)
     opened = (demand()[0]._replace(inputs=np.zeros(2)), 0.0, 0.0)
