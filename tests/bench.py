@@ -3,8 +3,9 @@
 from pathlib import Path
 
 import numpy as np
-from records import filled
+from records import blank, filled
 
+from ars_mujoco.actuators.pump_controlled.axle import Axle
 from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitState, rates
 from ars_mujoco.actuators.registry import actuator_schema
 from ars_mujoco.hydraulics.line import ONE_SIDED
@@ -23,6 +24,13 @@ ANGLE = list(CircuitState.model_fields).index("angle")
 def circuit(axle: str = "front") -> np.record:
     """The record of the shipped ReducedCircuit of an axle."""
     return filled(getattr(read(actuator_schema(), "pump_controlled", "actuator").value, axle))
+
+
+def axle(circuit: np.record, stiffness: float = STIFFNESS) -> np.record:
+    """The Axle record of a circuit on a bar."""
+    parameters = blank(Axle)
+    parameters.circuit, parameters.stiffness = circuit, stiffness
+    return parameters
 
 
 def one_sided() -> np.record:

@@ -18,7 +18,7 @@ def started(loop: Loop, step: float) -> tuple[np.record, np.record, np.record]:
     if loop.is_detailed:
         axle.substeps = detailed_substeps(axle, step, bypassed=False)
     else:
-        axle.substeps = substeps(axle.circuit, axle.stiffness, step)
+        axle.substeps = substeps(axle, step)
     return axle, loop.at_rest(), np.zeros(1, WORK).view(np.recarray)[0]
 
 
@@ -33,10 +33,7 @@ def step_response(loop: Loop, gain: float, command: float, step: float, count: i
 def follow(axle, state, work, command, gain: float, step: float) -> None:
     """Advance `state` by `step` s under a command (c0, c1, c2) as in `reduced_circuit.advance`, with K_p `gain`."""
     if axle.detail.plant == REDUCED_PLANT and axle.detail.stage == THIRD_ORDER:
-        advance(
-            axle.circuit, axle.stiffness, state.circuit, state.circuit, state.energy, state.energy,
-            command, gain, 0.0, 0.0, step, int(axle.substeps),
-        )  # fmt: skip
+        advance(axle, state, state, (command, gain, 0.0, 0.0), step, int(axle.substeps))
     else:
         advance_detailed(axle, state, state, (command, gain, 0.0, 0.0), VALVES, step, work)
 

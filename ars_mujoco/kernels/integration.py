@@ -1,4 +1,4 @@
-"""Integration: a system of ordinary differential equations through a physics step, in substeps of classical Runge-Kutta.
+"""Integration: ordinary differential equations through a physics step, in substeps of classical Runge-Kutta.
 
 A system writes its equations as
 
@@ -6,13 +6,25 @@ A system writes its equations as
     def rates(p, demand, t, state):
         return derivatives, powers, torques
 
-three tuples: of the states' derivatives, of the powers (W) behind its energies, and of the bars' torques (Nm), at a time
-t (s) since the start of the step. `demand` is whatever holds over the step. States and powers stand in the order of the
-records that keep them.
+three tuples: of the states' derivatives, of the powers (W) behind its energies, and of the bars' torques (Nm), at a
+time t (s) since the start of the step. `demand` is whatever holds over the step. States and powers stand in the order
+of the records that keep them.
 """
 
 from ars_mujoco.kernels.kernel import inlined
-from ars_mujoco.kernels.records import along, numbers, store, weighted, zeros
+from ars_mujoco.kernels.records import along, divided, mean, numbers, store, weighted, zeros
+
+
+@inlined
+def left(p, state):
+    """`settled` of a system whose states may go anywhere."""
+    return state
+
+
+@inlined
+def alone(powers):
+    """`counted` of a system whose energies are the integrals of its powers."""
+    return powers
 
 
 def runge_kutta(rates):
@@ -26,31 +38,51 @@ def runge_kutta(rates):
         k4, p4, m4 = rates(p, demand, t + h, along(state, k3, h))
         return (
             weighted(state, k1, k2, k3, k4, h),
-            weighted(zeros(p1), p1, p2, p3, p4, 1.0),
-            weighted(zeros(m1), m1, m2, m3, m4, 1.0),
+            mean(p1, p2, p3, p4),
+            mean(m1, m2, m3, m4),
         )
 
     return stepped
 
 
-def integrated(rates):
-    """A kernel that takes a system through a physics step of `step` s in `count` substeps, and returns its mean torques.
+def in_substeps(rates, settled=left, counted=alone):
+    """A kernel that takes a tuple of states through a physics step of `step` s in `count` substeps.
 
-    `now` and `later` are records with a `state` and an `energy`, whose numbers are the states and what the powers have
-    summed up to (J), with the weights of the states.
+    It gives the new state, the energies of the step (J, with the weights of the states), and the mean torques (Nm).
+    A step has one substep at least.
+    `settled(p, state)` is where the state comes to stand after a substep, as at a stop that holds it; `counted(powers)`
+    makes of the mean powers of a substep those to be summed up, as of what needs |.|.
     """
     stepped = runge_kutta(rates)
 
     @inlined
-    def advance(p, now, later, demand, step, count):
-        state, h = numbers(now.state), step / count
-        _, powers, torques = rates(p, demand, 0.0, state)
-        sums, means = zeros(powers), zeros(torques)
+    def through(p, demand, state, step, count):
+        h = step / count
         for i in range(count):
-            state, power, torque = stepped(p, demand, i * h, state, h)
-            sums, means = along(sums, power, 1.0), along(means, torque, 1.0)
+            state, powers, torques = stepped(p, demand, i * h, state, h)
+            state, powers = settled(p, state), counted(powers)
+            if i == 0:  # as many sums as there are powers; an evaluation of `rates` for their number would cost
+                sums, totals = powers, torques
+            else:
+                sums, totals = along(sums, powers, 1.0), along(totals, torques, 1.0)
+        return state, along(zeros(sums), sums, h), divided(totals, count)
+
+    return through
+
+
+def integrated(rates, settled=left, counted=alone):
+    """A kernel that takes the records of a system through a physics step, see `in_substeps`; returns its mean torques.
+
+    `now` and `later` (they may be the same) have a `state` and an `energy`, whose numbers are the states and what the
+    counted powers have summed up to (J).
+    """
+    through = in_substeps(rates, settled, counted)
+
+    @inlined
+    def advance(p, now, later, demand, step, count):
+        state, energies, torques = through(p, demand, numbers(now.state), step, count)
         store(later.state, state)
-        store(later.energy, along(numbers(now.energy), sums, h))
-        return along(zeros(means), means, 1.0 / count)
+        store(later.energy, along(numbers(now.energy), energies, 1.0))
+        return torques
 
     return advance

@@ -20,9 +20,19 @@ def weighted(state, k1, k2, k3, k4, h):
     return tuple([x + w * (a + 2.0 * (b + c) + d) for x, a, b, c, d in zip(state, k1, k2, k3, k4, strict=True)])
 
 
+def mean(k1, k2, k3, k4):
+    """The means over a step of what four stages give, with the weights of that method."""
+    return tuple([(a + 2.0 * (b + c) + d) * (1.0 / 6.0) for a, b, c, d in zip(k1, k2, k3, k4, strict=True)])
+
+
 def zeros(like):
     """As many zeros as the tuple `like` has numbers."""
     return tuple([0.0 for _ in like])
+
+
+def divided(values, by):
+    """Every number of the tuple `values`, divided."""
+    return tuple([value / by for value in values])
 
 
 def numbers(record):
@@ -67,9 +77,20 @@ def _weighted(state, k1, k2, k3, k4, h):
     return _giving("state, k1, k2, k3, k4, h", each)
 
 
+@specialized(mean)
+def _mean(k1, k2, k3, k4):
+    each = [f"(k1[{i}] + 2.0 * (k2[{i}] + k3[{i}]) + k4[{i}]) * (1.0 / 6.0)" for i in range(len(k1))]
+    return _giving("k1, k2, k3, k4", each)
+
+
 @specialized(zeros)
 def _zeros(like):
     return _giving("like", ["0.0"] * len(like))
+
+
+@specialized(divided)
+def _divided(values, by):
+    return _giving("values, by", [f"values[{i}] / by" for i in range(len(values))])
 
 
 @specialized(numbers)

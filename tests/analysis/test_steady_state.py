@@ -4,10 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from records import blank
 from theory import CORNERS, LOOP, full_flow, leakage
 
-from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitEnergy, CircuitState, advance
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import advance
 from ars_mujoco.analysis import steady_state
 from ars_mujoco.analysis.steady_state import error
 
@@ -22,11 +21,10 @@ def test_the_error_is_that_of_the_closed_form(loop):
 @pytest.mark.parametrize("leaking", [4e-13, 2e-12])
 def test_the_running_circuit_comes_to_rest_with_that_error(leaking):
     loop, command = LOOP.at({"leakage": leaking}), math.radians(5)
-    state, energy = blank(CircuitState), blank(CircuitEnergy)
-    demand = (command, 0.0, 0.0), loop.gain, 0.0, 0.0
-    advance(loop.circuit, loop.stiffness, state, state, energy, energy, *demand, 3.0, 60000)
-    assert abs(state.rate) < 1e-9
-    assert 1 - state.angle / command == pytest.approx(error(loop), rel=1e-6)
+    state = loop.at_rest()
+    advance(loop.axle, state, state, ((command, 0.0, 0.0), loop.gain, 0.0, 0.0), 3.0, 60000)
+    assert abs(state.circuit.rate) < 1e-9
+    assert 1 - state.circuit.angle / command == pytest.approx(error(loop), rel=1e-6)
 
 
 def test_the_paper_s_half_a_percent_holds_only_near_the_least_leakage():

@@ -10,8 +10,10 @@ from scipy.linalg import expm
 
 from ars_mujoco.kernels.integration import integrated
 from ars_mujoco.kernels.kernel import inlined, kernel
-from ars_mujoco.kernels.records import along, numbers, share, store, weighted, zeros
-from ars_mujoco.kernels.substeps import differences, fewest_substeps
+from ars_mujoco.kernels.records import along, divided, mean, numbers, share, store, weighted, zeros
+from ars_mujoco.kernels.substeps import derivatives, differences, fewest_substeps, linearized, scales, slopes
+from ars_mujoco.schema.channels import channel
+from ars_mujoco.schema.parameters import Parameters, record_dtype
 
 OSCILLATOR = np.dtype([("motion", [("position", "f8"), ("rate", "f8")])])
 ENERGY = np.dtype([("spring", "f8"), ("damper", "f8")])
@@ -65,22 +67,32 @@ def test_so_are_the_energies_and_they_close():
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(4.0, abs=0.2)
 
 
+def test_under_a_force_that_grows_with_the_time_it_is_of_fourth_order_too():
+    matrix = np.array([[0.0, 1.0, 0.0, 0.0], [-(OMEGA**2), -DAMPING, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0], [0.0] * 4])
+    final = expm(matrix) @ [1.0, 0.0, 0.0, 6.0]  # position and rate, force and its growth
+    errors = [np.linalg.norm(numbers(moved(count, demand=6.0)[0].state) - final[:2]) for count in (10, 20, 40, 80)]
+    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(4.0, abs=0.15)
+
+
 def test_a_demand_over_time_is_taken_at_the_times_of_the_stages():
     _, (mean,) = moved(7, demand=6.0)
     assert mean == pytest.approx(3.0, rel=1e-14)
 
 
-@pytest.mark.parametrize("length", [1, 2, 5, 13])
+@pytest.mark.parametrize("length", range(1, 14))
 def test_tuples_of_any_length_are_taken_number_by_number(length):
     state, slope = tuple(np.linspace(1.0, 2.0, length)), tuple(np.linspace(-1.0, 3.0, length))
 
     @kernel
     def compiled(state, slope):
-        return along(state, slope, 0.5), weighted(state, slope, slope, slope, slope, 0.5), zeros(state)
+        by_stages = weighted(state, slope, slope, slope, slope, 0.5)
+        return along(state, slope, 0.5), by_stages, mean(state, slope, slope, state), divided(state, 3), zeros(state)
 
-    ahead, by_stages, nothing = compiled(state, slope)
+    ahead, by_stages, means, thirds, nothing = compiled(state, slope)
     assert ahead == along(state, slope, 0.5) == pytest.approx(np.add(state, np.multiply(0.5, slope)))
     assert by_stages == weighted(state, slope, slope, slope, slope, 0.5) == pytest.approx(ahead)
+    assert means == mean(state, slope, slope, state) == pytest.approx(np.add(state, np.multiply(2.0, slope)) / 3.0)
+    assert thirds == tuple(x / 3 for x in state)
     assert nothing == (0.0,) * length
 
 
@@ -114,15 +126,56 @@ def test_what_two_records_share_is_copied_and_nothing_else():
         assert (target.a, target.c, target.d) == (1.0, 3.0, 4.0)
 
 
-def test_interpreted_it_is_the_same_to_the_last_bit(monkeypatch):
+@inlined
+def stopped(p, state):
+    return min(state[0], 0.0), state[1]
+
+
+@inlined
+def given_and_taken(powers):
+    return abs(powers[0]), max(-powers[0], 0.0)
+
+
+held_back = integrated(rates, stopped, given_and_taken)
+
+
+@kernel
+def drive_to_the_stop(now, later, demand, step, count):
+    return held_back(0.0, now, later, demand, step, count)
+
+
+def test_a_state_that_is_settled_stands_there_after_each_substep():
+    now, halfway, later, at_once = record(PART), record(PART), record(PART), record(PART)
+    now.state.motion.position, now.state.motion.rate = -0.1, 1.0
+    drive_to_the_stop(now, halfway, 0.0, 0.15, 1)
+    drive_to_the_stop(halfway, later, 0.0, 0.15, 1)
+    drive_to_the_stop(now, at_once, 0.0, 0.3, 2)
+    assert halfway.state.motion.position == 0.0
+    assert numbers(at_once.state) == numbers(later.state)
+
+
+def test_what_is_counted_comes_from_the_means_of_the_substeps():
+    now, counted, plain = record(PART), record(PART), record(PART)
+    now.state.motion.position = -1.0
+    drive_to_the_stop(now, counted, 0.0, 0.4, 20)  # which it does not reach, so the spring only gives
+    drive(now, plain, 0.0, 0.4, 20)
+    assert plain.energy.spring < 0.0
+    assert numbers(counted.energy) == (-plain.energy.spring, -plain.energy.spring)
+
+
+def results() -> list[float]:
     later, torques = moved(9, demand=1.7)
-    program = (
-        "from test_integration import *; later, torques = moved(9, demand=1.7); print([*numbers(later), *torques])"
-    )
+    stopped_at = record(PART)
+    more = drive_to_the_stop(later, stopped_at, 1.7, 1.0, 7)
+    return [*numbers(later), *torques, *numbers(stopped_at), *more]
+
+
+def test_interpreted_it_is_the_same_to_the_last_bit(monkeypatch):
+    program = "from test_integration import *; print(results())"
     monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
     monkeypatch.setenv("PYTHONPATH", ":".join(sys.path))
     printed = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
-    assert eval(printed, {"np": np}) == [*numbers(later), *torques]
+    assert eval(printed, {"np": np}) == results()
 
 
 # ---- substeps
@@ -143,3 +196,37 @@ def test_an_oscillation_is_resolved_and_what_grows_asks_for_nothing():
 def test_differences_are_the_slopes_of_the_equations():
     slopes = differences(lambda state: rates(0.0, 0.0, 0.0, tuple(state))[0], np.zeros(2), np.array([1e-4, 1e-3]))
     assert slopes == pytest.approx(np.array([[0.0, 1.0], [-(OMEGA**2), -DAMPING]]), abs=1e-9)
+
+
+class Motion(Parameters):
+    position: float = channel("m", "position", scale=1e-4)
+    rate: float = channel("m/s", "its rate", scale=1e-3)
+
+
+class Nested(Parameters):
+    first: Motion
+    lag: float = channel("1", "a lag", scale=2.0)
+    last: Motion
+
+
+def test_nudges_stand_in_the_order_of_the_record_blocks_included():
+    assert scales(Nested).tolist() == [1e-4, 1e-3, 2.0, 1e-4, 1e-3]
+    assert len(scales(Nested)) == len(numbers(record(record_dtype(Nested))))
+
+
+@inlined
+def steered(p, demand, t, state):
+    """The oscillator under a force that is the demand."""
+    x, v = state
+    return (v, demand - p * x - DAMPING * v), (0.0,), (0.0,)
+
+
+def test_linearized_it_is_the_matrices_of_the_oscillator_and_the_state_is_left():
+    at = record(record_dtype(Motion))
+    at.position, at.rate = 0.3, -0.7
+    evaluate = derivatives(steered)
+    a, b = linearized(evaluate, OMEGA**2, lambda force: 2.0 * force, at, scales(Motion), 1e-3)
+    assert a == pytest.approx(np.array([[0.0, 1.0], [-(OMEGA**2), -DAMPING]]), abs=1e-9)
+    assert b == pytest.approx(np.array([[0.0], [2.0]]), abs=1e-9)
+    assert slopes(evaluate, OMEGA**2, 0.0, at, scales(Motion)) == pytest.approx(a, abs=1e-9)
+    assert numbers(at) == (0.3, -0.7)

@@ -5,13 +5,14 @@ from itertools import product
 
 import numpy as np
 import pytest
-from bench import AT_REST, STIFFNESS, circuit, linearized
+from bench import AT_REST, axle, circuit, linearized
 from radau import ATOL, State, VerificationSet, derivative, powers
 from records import blank
 from scipy.integrate import solve_ivp
 
+from ars_mujoco.actuators.pump_controlled.axle import AxleState
 from ars_mujoco.actuators.pump_controlled.substeps import substeps
-from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitEnergy, CircuitState, advance
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitState, advance
 from ars_mujoco.schema.errors import InputError
 
 GAIN = 60.0  # 1/rad
@@ -43,9 +44,10 @@ def runs():
     parameters, found = circuit(), []
     parameters.motor.coulomb_friction = 0.0
     for count in COUNTS:
-        state, energy = blank(CircuitState), blank(CircuitEnergy)
-        advance(parameters, STIFFNESS, state, state, energy, energy, COMMAND, GAIN, 0.0, 0.0, DURATION, count)
-        found.append({name: record[name] for record, names in ((state, STATES), (energy, ENERGIES)) for name in names})
+        state = blank(AxleState)
+        advance(axle(parameters), state, state, (COMMAND, GAIN, 0.0, 0.0), DURATION, count)
+        parts = (state.circuit, STATES), (state.energy, ENERGIES)
+        found.append({name: record[name] for record, names in parts for name in names})
     return found
 
 
@@ -88,20 +90,20 @@ def test_every_stable_eigenvalue_stays_stable_in_the_chosen_substeps(where, step
     growth = 0.0
     for parameters in corners():
         z = np.linalg.eigvals(linearized(parameters, GAIN, PLACES[where])[0]) * step
-        z = z[z.real <= 0] / substeps(parameters, STIFFNESS, step)
+        z = z[z.real <= 0] / substeps(axle(parameters), step)
         growth = max(growth, amplification(z))
     print(f"{where}, {step} s: |R| = {growth:.6f}")
     assert growth < 1.0 + 1e-9
 
 
 def test_a_nominal_step_of_1_ms_takes_8_substeps():
-    assert substeps(circuit(), STIFFNESS, 1e-3) == 8
+    assert substeps(axle(circuit()), 1e-3) == 8
 
 
 def test_half_the_substeps_of_the_stiffest_corner_would_not_be_stable():
     parameters = circuit()
     parameters.motor.inertia = 0.1
-    z = np.linalg.eigvals(linearized(parameters, GAIN)[0]) * 1e-3 / (substeps(parameters, STIFFNESS, 1e-3) / 2)
+    z = np.linalg.eigvals(linearized(parameters, GAIN)[0]) * 1e-3 / (substeps(axle(parameters), 1e-3) / 2)
     assert amplification(z) > 1.0
 
 
@@ -109,10 +111,10 @@ def test_a_circuit_faster_than_any_sensible_number_of_substeps_is_refused():
     parameters = circuit()
     parameters.line.capacitance = 1e-20
     with pytest.raises(InputError, match="fastest eigenvalue, .* needs more than 200 substeps of 1 ms"):
-        substeps(parameters, STIFFNESS, 1e-3)
+        substeps(axle(parameters), 1e-3)
 
 
 def test_a_faster_valve_gets_more_substeps():
     parameters = circuit()
     parameters.servo_valve.frequency = 2e4
-    assert substeps(parameters, STIFFNESS, 1e-3) > 8
+    assert substeps(axle(parameters), 1e-3) > 8

@@ -140,7 +140,7 @@ def fill_axle(record, file: PumpControlled, axle: str, stiffness: float, step: f
     pump = record.circuit.pump
     pump.speed = first_speed(file.drive, pump.speed)
     if is_third_order(file):
-        record.substeps = substeps(record.circuit, stiffness, step)
+        record.substeps = substeps(record, step)
     else:
         record.substeps = detailed_substeps(record, step, bypassed)
 

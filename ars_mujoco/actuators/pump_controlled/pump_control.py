@@ -12,7 +12,6 @@ step's own estimate of its error tells, and the substep is divided.
 """
 
 from ars_mujoco.actuators.pump_controlled.swash_plate_loop import valve_command
-from ars_mujoco.actuators.pump_controlled.third_order_circuit import along
 from ars_mujoco.hydraulics.control_cylinder import (
     chamber_capacitance,
     chamber_volumes,
@@ -29,6 +28,7 @@ from ars_mujoco.hydraulics.metering_edge import (
 from ars_mujoco.hydraulics.servo_valve import spool_acceleration
 from ars_mujoco.hydraulics.swash_plate import held, stroke_rate
 from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.kernels.records import along
 
 THIRD_ORDER, REDUCED, FULL = 0.0, 1.0, 2.0
 

@@ -17,17 +17,17 @@ from ars_mujoco.actuators.pump_controlled.full_plant import (
     B,
     stored_energies,
 )
-from ars_mujoco.actuators.pump_controlled.third_order_circuit import rates, read, stored_energy
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import rates, stored_energy
 from ars_mujoco.hydraulics.pump import extrapolation, ideal_flow
 from ars_mujoco.kernels.kernel import kernel
-from ars_mujoco.kernels.records import share
+from ars_mujoco.kernels.records import numbers, share
 
 
 @kernel
 def report_third_order(axle, now, out, twist, work) -> None:
     """What the verification set records, at a twist (rad) of the bar."""
     circuit, state = axle.circuit, now.circuit
-    _, powers = rates(circuit, axle.stiffness, read(state), 0.0, twist)
+    _, powers = rates(circuit, axle.stiffness, numbers(state), 0.0, twist)
     shaft, loss, pump_leakage, motor_leakage, relief, friction, _, motor, _ = powers
     out.motor.output_power, out.motor.friction_power, out.motor.leakage_power = motor, friction, motor_leakage
     out.pump.shaft_power, out.pump.loss_power, out.pump.leakage_power = shaft, loss, pump_leakage

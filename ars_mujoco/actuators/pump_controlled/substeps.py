@@ -16,27 +16,29 @@ from ars_mujoco.actuators.pump_controlled.full_plant import (
     STATES,
     A,
 )
-from ars_mujoco.actuators.pump_controlled.third_order_circuit import rates
+from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitState, axle_rates
 from ars_mujoco.kernels.kernel import entry
-from ars_mujoco.kernels.substeps import differences, fewest_substeps
+from ars_mujoco.kernels.substeps import derivatives, differences, fewest_substeps, scales, slopes
+from ars_mujoco.schema.parameters import record_dtype
 
-NUDGES = np.array([1e-4, 1e-2, 1e-4, 1e2, 1e-6, 1e-6])  # of the reduced circuit's six states, for the slopes
+IDLE = (0.0, 0.0, 0.0), 0.0, 0.0, 0.0  # a demand for no stroke, on a bar that is not twisted
 PLANT_NUDGES = np.array([1e2] * FLOW_A + [1e-9] * (GALLERY - FLOW_A) + [1e2, 1e-6, 1e-6, 1e-4, 1e-4])
 
+_derivatives = derivatives(axle_rates)
 
-def substeps(circuit, bar_stiffness: float, step: float) -> int:
+
+def substeps(axle, step: float) -> int:
     """The fewest substeps of a physics step (s) in which all that decays does decay, and oscillations are resolved.
 
-    Looked at where the reduced circuit with its pump control is stiffest: at rest (the friction's rounding), moving,
-    over the relief valve's pressure and past the mechanical stop. Raises InputError where too many are needed.
+    Looked at where the reduced circuit of `axle` with its pump control is stiffest: at rest (the friction's rounding),
+    moving, over the relief valve's pressure and past the mechanical stop. Raises InputError where too many are needed.
     """
-    states = np.zeros((4, 6))
-    states[1, 5] = 1.0  # rad/s
-    states[2, 3] = 1.1 * circuit.relief_valve.pressure
-    states[3, 4] = 1.01 * circuit.motor.stop_angle
-    return fewest_substeps(
-        [differences(partial(_rates, circuit, bar_stiffness), state, NUDGES) for state in states], step
-    )
+    states = np.zeros(4, record_dtype(CircuitState)).view(np.recarray)
+    states[1].rate = 1.0  # rad/s
+    states[2].pressure = 1.1 * axle.circuit.relief_valve.pressure
+    states[3].angle = 1.01 * axle.circuit.motor.stop_angle
+    nudges = scales(CircuitState)
+    return fewest_substeps([slopes(_derivatives, axle, IDLE, state, nudges) for state in states], step)
 
 
 def detailed_substeps(axle, step: float, bypassed: bool) -> int:
@@ -55,13 +57,6 @@ def detailed_substeps(axle, step: float, bypassed: bool) -> int:
     states[4, GALLERY] *= 2.0
     states[5, FAIL_SAFE] = 0.0
     return fewest_substeps([differences(partial(_plant_rates, axle), state, PLANT_NUDGES) for state in states], step)
-
-
-@entry
-def _rates(circuit, bar_stiffness, state):
-    six = (state[0], state[1], state[2], state[3], state[4], state[5])
-    derivatives, _ = rates(circuit, bar_stiffness, six, 0.0, 0.0)
-    return derivatives
 
 
 def _plant_rates(axle, state: np.ndarray) -> np.ndarray:

@@ -22,12 +22,12 @@ from ars_mujoco.hydraulics.relief_valve import ReliefValve, relief_flow
 from ars_mujoco.hydraulics.servo_valve import ServoValve, spool_acceleration
 from ars_mujoco.hydraulics.swash_plate import SwashPlate, held, stroke_rate
 from ars_mujoco.hydraulics.vane_motor import VaneMotor, friction_torque, stop_torque
-from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.kernels.integration import in_substeps
+from ars_mujoco.kernels.kernel import inlined, kernel
+from ars_mujoco.kernels.records import numbers, store
 from ars_mujoco.kernels.saturation import saturate
 from ars_mujoco.schema.channels import channel, counted, drawn, lost
 from ars_mujoco.schema.parameters import Parameters, quantity
-
-NOTHING = (0.0,) * 11
 
 
 class Circuit(Parameters):
@@ -56,12 +56,12 @@ class ReducedCircuit(Circuit):
 class CircuitState(Parameters):
     """State of one axle's circuit."""
 
-    spool: float = channel("1", "servo valve stroke, fraction of full")
-    spool_rate: float = channel("1/s", "its rate")
-    stroke: float = channel("1", "pump stroke, fraction of full")
-    pressure: float = channel("Pa", "pressure difference across the motor")
-    angle: float = channel("rad", "angle of the motor")
-    rate: float = channel("rad/s", "its rate")
+    spool: float = channel("1", "servo valve stroke, fraction of full", scale=1e-4)
+    spool_rate: float = channel("1/s", "its rate", scale=1e-2)
+    stroke: float = channel("1", "pump stroke, fraction of full", scale=1e-4)
+    pressure: float = channel("Pa", "pressure difference across the motor", scale=1e2)
+    angle: float = channel("rad", "angle of the motor", scale=1e-6)
+    rate: float = channel("rad/s", "its rate", scale=1e-6)
 
 
 class CircuitEnergy(Parameters):
@@ -81,7 +81,7 @@ class CircuitEnergy(Parameters):
     throughput: float = counted("integral of |shaft| + |motor| power")
 
 
-@kernel
+@inlined
 def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: float):
     """Derivatives of the six states and the powers behind the energies, as two tuples.
 
@@ -100,7 +100,7 @@ def rates(circuit, bar_stiffness: float, state, stroke_command: float, twist: fl
     return control + plant, powers
 
 
-@kernel
+@inlined
 def plant_rates(circuit, bar_stiffness: float, stroke: float, pressure: float, angle: float, rate: float, twist: float):
     """Derivatives of (pressure, angle, rate) at a pump stroke, and the powers of `rates` (eqs. 24 to 29)."""
     pump, motor = circuit.pump, circuit.motor
@@ -130,64 +130,42 @@ def plant_rates(circuit, bar_stiffness: float, stroke: float, pressure: float, a
     return derivatives, powers
 
 
-@kernel
-def advance(
-    circuit, bar_stiffness, now, later, energy_now, energy_later, command, gain, stroke_bias, twist, step, count
-) -> float:
-    """Advance the circuit by `step` s in `count` classical Runge-Kutta substeps; return the mean bar torque (Nm).
+@inlined
+def axle_rates(axle, demand, t: float, state):
+    """The equations of an `axle.Axle` as `kernels.integration` takes them; a demand is (command, gain, bias, twist).
 
-    `now` and `later` are CircuitState records (they may be the same), `energy_*` CircuitEnergy records. The stroke
-    command at a stage is the saturated `stroke_bias + gain (phi_c(t) - phi)`, where `command` = (c0, c1, c2) is the
-    commanded angle c0 + c1 t + c2 t^2 (rad) since the start of the step. `bar_stiffness` is c_stabi
-    (Nm/rad), the torsion of both halves in series; the bar's twist (rad) is held.
+    The stroke command is the saturated `bias + gain (phi_c(t) - phi)`, where `command` = (c0, c1, c2) is the commanded
+    angle c0 + c1 t + c2 t^2 (rad) since the start of the step; the bar's twist (rad) is held.
     """
-    demand, h = (command, gain, stroke_bias, twist), step / count
-    state, sums = read(now), NOTHING
-    for i in range(count):
-        t = i * h
-        k1, p1 = _stage(circuit, bar_stiffness, demand, t, state)
-        k2, p2 = _stage(circuit, bar_stiffness, demand, t + 0.5 * h, along(state, k1, 0.5 * h))
-        k3, p3 = _stage(circuit, bar_stiffness, demand, t + 0.5 * h, along(state, k2, 0.5 * h))
-        k4, p4 = _stage(circuit, bar_stiffness, demand, t + h, along(state, k3, h))
-        state, sums = _runge_kutta(circuit, state, k1, k2, k3, k4, h), _accumulate(sums, p1, p2, p3, p4)
-    return _write(circuit, state, sums, later, energy_now, energy_later, step, count)
+    (c0, c1, c2), gain, bias, twist = demand
+    stroke_command = saturate(bias + gain * (c0 + t * (c1 + t * c2) - state[4]), 1.0)
+    derivatives, powers = rates(axle.circuit, axle.stiffness, state, stroke_command, twist)
+    return derivatives, powers[:8], powers[8:]
 
 
 @kernel
-def advance_both(
-    f, r, f_stiffness, r_stiffness, f_now, r_now, f_later, r_later,
-    f_energy_now, r_energy_now, f_energy_later, r_energy_later, f_demand, r_demand, step, count,
-):  # fmt: skip
-    """Advance two circuits, front and rear, in lockstep; return their mean bar torques (Nm).
+def advance(axle, now, later, demand, step: float, count: int) -> float:
+    """Advance the circuit of `axle` by `step` s in `count` Runge-Kutta substeps; return the mean bar torque (Nm).
 
-    The arguments are those of `advance`, of the front and of the rear one; a demand is (command, gain, stroke_bias,
-    twist). Two independent chains of arithmetic in one loop take little longer than one, because a processor works on
-    both at once; the results are those of `advance`.
+    `now` and `later` are axle states (they may be the same); a demand is that of `axle_rates`.
     """
-    f_state, r_state, f_sums, r_sums = read(f_now), read(r_now), NOTHING, NOTHING
-    h = step / count
-    for i in range(count):
-        t = i * h
-        k1, p1 = _stage(f, f_stiffness, f_demand, t, f_state)
-        l1, q1 = _stage(r, r_stiffness, r_demand, t, r_state)
-        k2, p2 = _stage(f, f_stiffness, f_demand, t + 0.5 * h, along(f_state, k1, 0.5 * h))
-        l2, q2 = _stage(r, r_stiffness, r_demand, t + 0.5 * h, along(r_state, l1, 0.5 * h))
-        k3, p3 = _stage(f, f_stiffness, f_demand, t + 0.5 * h, along(f_state, k2, 0.5 * h))
-        l3, q3 = _stage(r, r_stiffness, r_demand, t + 0.5 * h, along(r_state, l2, 0.5 * h))
-        k4, p4 = _stage(f, f_stiffness, f_demand, t + h, along(f_state, k3, h))
-        l4, q4 = _stage(r, r_stiffness, r_demand, t + h, along(r_state, l3, h))
-        f_state, f_sums = _runge_kutta(f, f_state, k1, k2, k3, k4, h), _accumulate(f_sums, p1, p2, p3, p4)
-        r_state, r_sums = _runge_kutta(r, r_state, l1, l2, l3, l4, h), _accumulate(r_sums, q1, q2, q3, q4)
-    return (
-        _write(f, f_state, f_sums, f_later, f_energy_now, f_energy_later, step, count),
-        _write(r, r_state, r_sums, r_later, r_energy_now, r_energy_later, step, count),
-    )
+    state, energies, torques = _through_one(axle, demand, numbers(now.circuit), step, count)
+    _write(axle, now, later, state, energies, step)
+    return torques[0]
 
 
 @kernel
-def read(state):
-    """A CircuitState record as the tuple that `rates` takes."""
-    return state.spool, state.spool_rate, state.stroke, state.pressure, state.angle, state.rate
+def advance_both(p, now, later, demands, step: float, count: int):
+    """Advance the circuits of front and rear in lockstep; return their mean bar torques (Nm).
+
+    Two independent chains of arithmetic in one loop take little longer than one, because a processor works on both at
+    once; the results are those of `advance`.
+    """
+    before = numbers(now.front.circuit) + numbers(now.rear.circuit)
+    state, energies, torques = _through_both(p, demands, before, step, count)
+    _write(p.front, now.front, later.front, state[:6], energies[:10], step)
+    _write(p.rear, now.rear, later.rear, state[6:], energies[10:], step)
+    return torques
 
 
 @kernel
@@ -202,79 +180,51 @@ def stored_energy(circuit, bar_stiffness: float, state, twist: float):
     )
 
 
-@kernel
-def _stage(circuit, bar_stiffness, demand, t, state):
-    (c0, c1, c2), gain, bias, twist = demand
-    stroke_command = saturate(bias + gain * (c0 + t * (c1 + t * c2) - state[4]), 1.0)
-    return rates(circuit, bar_stiffness, state, stroke_command, twist)
+@inlined
+def _both_rates(p, demands, t, state):
+    # twelve states, those of the front first
+    front, front_powers, front_torque = axle_rates(p.front, demands[0], t, state[:6])
+    rear, rear_powers, rear_torque = axle_rates(p.rear, demands[1], t, state[6:])
+    return front + rear, front_powers + rear_powers, front_torque + rear_torque
+
+
+@inlined
+def _settled(axle, state):
+    spool, spool_rate, stroke, pressure, angle, rate = state
+    return spool, spool_rate, held(axle.circuit.swash_plate, stroke), pressure, angle, rate
+
+
+@inlined
+def _both_settled(p, state):
+    return _settled(p.front, state[:6]) + _settled(p.rear, state[6:])
+
+
+@inlined
+def _counted(powers):
+    # after the eight powers of `rates` what needs |.|: recovered power and throughput
+    shaft, motor = powers[0], powers[7]
+    return powers + (max(-shaft, 0.0), abs(shaft) + abs(motor))
+
+
+@inlined
+def _both_counted(powers):
+    return _counted(powers[:8]) + _counted(powers[8:])
+
+
+_through_one = in_substeps(axle_rates, _settled, _counted)
+_through_both = in_substeps(_both_rates, _both_settled, _both_counted)
 
 
 @kernel
-def along(state, rate, h):
-    """Six numbers `h` along their rates."""
-    return (
-        state[0] + h * rate[0],
-        state[1] + h * rate[1],
-        state[2] + h * rate[2],
-        state[3] + h * rate[3],
-        state[4] + h * rate[4],
-        state[5] + h * rate[5],
-    )
-
-
-@kernel
-def _runge_kutta(circuit, state, k1, k2, k3, k4, h):
-    w, d = h / 6.0, 2.0
-    return (
-        state[0] + w * (k1[0] + d * (k2[0] + k3[0]) + k4[0]),
-        state[1] + w * (k1[1] + d * (k2[1] + k3[1]) + k4[1]),
-        held(circuit.swash_plate, state[2] + w * (k1[2] + d * (k2[2] + k3[2]) + k4[2])),
-        state[3] + w * (k1[3] + d * (k2[3] + k3[3]) + k4[3]),
-        state[4] + w * (k1[4] + d * (k2[4] + k3[4]) + k4[4]),
-        state[5] + w * (k1[5] + d * (k2[5] + k3[5]) + k4[5]),
-    )
-
-
-@kernel
-def _accumulate(sums, p1, p2, p3, p4):
-    # the powers of `rates` with the weights of the states, then recovered power and throughput, which need |.|
-    shaft, motor = _mean(p1[0], p2[0], p3[0], p4[0]), _mean(p1[7], p2[7], p3[7], p4[7])
-    return (
-        sums[0] + shaft,
-        sums[1] + _mean(p1[1], p2[1], p3[1], p4[1]),
-        sums[2] + _mean(p1[2], p2[2], p3[2], p4[2]),
-        sums[3] + _mean(p1[3], p2[3], p3[3], p4[3]),
-        sums[4] + _mean(p1[4], p2[4], p3[4], p4[4]),
-        sums[5] + _mean(p1[5], p2[5], p3[5], p4[5]),
-        sums[6] + _mean(p1[6], p2[6], p3[6], p4[6]),
-        sums[7] + motor,
-        sums[8] + _mean(p1[8], p2[8], p3[8], p4[8]),
-        sums[9] + max(-shaft, 0.0),
-        sums[10] + abs(shaft) + abs(motor),
-    )
-
-
-@kernel
-def _mean(a, b, c, d):
-    return (a + 2.0 * (b + c) + d) * (1.0 / 6.0)
-
-
-@kernel
-def _write(circuit, state, sums, later, energy_now, energy_later, step, count):
-    # the new state and energies into their records; returns the mean bar torque
-    later.spool, later.spool_rate, later.stroke, later.pressure, later.angle, later.rate = state
-    h = step / count
-    shaft, loss, pump_leakage, motor_leakage, relief, friction, compliance, motor, torque, recovered, throughput = sums
-    energy_later.shaft = energy_now.shaft + h * shaft
-    energy_later.recovered = energy_now.recovered + h * recovered
-    energy_later.pump_torque_loss = energy_now.pump_torque_loss + h * loss
-    energy_later.pump_leakage = energy_now.pump_leakage + h * pump_leakage
-    energy_later.motor_leakage = energy_now.motor_leakage + h * motor_leakage
-    energy_later.relief = energy_now.relief + h * relief
-    energy_later.friction = energy_now.friction + h * friction
-    energy_later.capacitance = energy_now.capacitance + h * compliance
-    energy_later.charge = energy_now.charge + step * circuit.charge_power
-    energy_later.charge_loss = energy_now.charge_loss + step * circuit.charge_power
-    energy_later.motor = energy_now.motor + h * motor
-    energy_later.throughput = energy_now.throughput + h * throughput
-    return torque / count
+def _write(axle, now, later, state, energies, step):
+    # the new state and energies into their records
+    store(later.circuit, state)
+    before, after = now.energy, later.energy
+    shaft, loss, pump_leakage, motor_leakage, relief, friction, compliance, motor, recovered, throughput = energies
+    after.shaft, after.recovered = before.shaft + shaft, before.recovered + recovered
+    after.pump_torque_loss, after.pump_leakage = before.pump_torque_loss + loss, before.pump_leakage + pump_leakage
+    after.motor_leakage, after.relief = before.motor_leakage + motor_leakage, before.relief + relief
+    after.friction, after.capacitance = before.friction + friction, before.capacitance + compliance
+    after.charge = before.charge + step * axle.circuit.charge_power
+    after.charge_loss = before.charge_loss + step * axle.circuit.charge_power
+    after.motor, after.throughput = before.motor + motor, before.throughput + throughput

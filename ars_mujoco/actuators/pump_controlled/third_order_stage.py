@@ -31,12 +31,8 @@ def advance(p, now, later, out, work, command, twists, moment):
 @kernel
 def advance_circuits(p, now, later, front_demand, rear_demand, valves, step, work):
     """Bar torques (front, rear) in Nm; a demand is (command, gain, stroke_bias, twist)."""
-    return advance_both(
-        p.front.circuit, p.rear.circuit, p.front.stiffness, p.rear.stiffness,
-        now.front.circuit, now.rear.circuit, later.front.circuit, later.rear.circuit,
-        now.front.energy, now.rear.energy, later.front.energy, later.rear.energy,
-        front_demand, rear_demand, step, int(max(p.front.substeps, p.rear.substeps)),
-    )  # fmt: skip
+    count = int(max(p.front.substeps, p.rear.substeps))
+    return advance_both(p, now, later, (front_demand, rear_demand), step, count)
 
 
 @kernel

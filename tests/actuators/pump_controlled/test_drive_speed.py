@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from bench import STIFFNESS, circuit
+from bench import axle, circuit
 from pydantic import TypeAdapter
 from records import blank
 
@@ -107,5 +107,5 @@ def test_the_speed_does_not_change_how_many_substeps_a_step_needs():
     for rpm in (1e-3, 800, 3000, 6000):
         parameters = circuit()
         parameters.pump.speed = rpm * RPM
-        counts.add(substeps(parameters, STIFFNESS, H))
+        counts.add(substeps(axle(parameters), H))
     assert len(counts) == 1

@@ -5,13 +5,13 @@ from itertools import product
 
 import numpy as np
 import pytest
-from bench import AT_REST, STIFFNESS, circuit, linearized, one_sided
+from bench import AT_REST, STIFFNESS, axle, circuit, linearized, one_sided
 from hypothesis import given
 from hypothesis import strategies as st
 from records import blank
 
+from ars_mujoco.actuators.pump_controlled.axle import AxleState
 from ars_mujoco.actuators.pump_controlled.third_order_circuit import (
-    CircuitEnergy,
     CircuitState,
     advance,
     advance_both,
@@ -24,6 +24,7 @@ from ars_mujoco.hydraulics.vane_motor import stop_torque
 from ars_mujoco.schema.parameters import fill
 
 BAR = 1e5
+NO_COMMAND = (0.0, 0.0, 0.0)
 SHIPPED = circuit()
 BOTH = pytest.mark.parametrize("parameters", [SHIPPED, one_sided()], ids=["series", "one_sided"])
 STATES = st.tuples(st.floats(-1, 1), st.floats(-100, 100), st.floats(-1.2, 1.2), st.floats(-250, 250), st.floats(-1, 1),
@@ -39,10 +40,16 @@ def state(**values):
 
 def run(parameters, start, seconds, stroke=0.0, twist=0.0):
     """State and energies after `seconds`, the pump told to hold a stroke."""
-    end, energy = start.copy(), blank(CircuitEnergy)
-    count = round(seconds / 5e-5)
-    advance(parameters, STIFFNESS, end, end, energy, energy, (0.0, 0.0, 0.0), 0.0, stroke, twist, seconds, count)
-    return end, energy
+    now = at(start)
+    advance(axle(parameters), now, now, (NO_COMMAND, 0.0, stroke, twist), seconds, round(seconds / 5e-5))
+    return now.circuit, now.energy
+
+
+def at(circuit_state):
+    """The state of an axle whose circuit is in a state, without energies yet."""
+    record = blank(AxleState)
+    record.circuit = circuit_state
+    return record
 
 
 def blocked():
@@ -185,34 +192,56 @@ def test_an_ideal_pump_takes_from_its_shaft_what_it_gives_the_oil_or_gives_it_ba
 
 
 def test_advancing_leaves_the_state_it_starts_from():
-    start, end, energy = state(angle=0.1), state(), blank(CircuitEnergy)
-    advance(SHIPPED, STIFFNESS, start, end, energy, energy, (0.0, 0.0, 0.0), 60.0, 0.0, 0.0, 1e-3, 8)
-    assert start == state(angle=0.1)
+    start, end = at(state(angle=0.1)), blank(AxleState)
+    advance(axle(SHIPPED), start, end, (NO_COMMAND, 60.0, 0.0, 0.0), 1e-3, 8)
+    assert start == at(state(angle=0.1))
     assert end != start
 
 
 def test_two_circuits_in_lockstep_go_as_each_alone():
-    circuits, bars = (SHIPPED, circuit("rear")), (STIFFNESS, 0.5 * STIFFNESS)
-    starts, ends = (state(angle=0.1, pressure=20 * BAR), state(stroke=0.2, rate=-0.3)), (state(), state())
-    before, after = [blank(CircuitEnergy), blank(CircuitEnergy)], [blank(CircuitEnergy), blank(CircuitEnergy)]
+    axles = axle(SHIPPED), axle(circuit("rear"), 0.5 * STIFFNESS)
+    starts = at(state(angle=0.1, pressure=20 * BAR)), at(state(stroke=0.2, rate=-0.3))
     demands = ((0.1, 0.3, 9.0), 60.0, 0.1, 0.01), ((0.005, -0.2, 7.0), 40.0, -0.2, 0.02)
-    torques = advance_both(*circuits, *bars, *starts, *ends, *before, *after, *demands, 1e-3, 8)
-    for i, torque in enumerate(torques):
-        end, energy = state(), blank(CircuitEnergy)
-        alone = advance(circuits[i], bars[i], starts[i], end, before[i], energy, *demands[i], 1e-3, 8)
-        assert (ends[i], after[i], torque) == (end, energy, alone)
+    ends = both(blank(AxleState), blank(AxleState))
+    torques = advance_both(both(*axles), both(*starts), ends, demands, 1e-3, 7)
+    for i, end in enumerate((ends.front, ends.rear)):
+        alone = blank(AxleState)
+        assert torques[i] == advance(axles[i], starts[i], alone, demands[i], 1e-3, 7)
+        assert end == alone
+
+
+def both(front, rear):
+    """A record of both axles."""
+    record = np.zeros(1, [("front", front.dtype), ("rear", rear.dtype)]).view(np.recarray)[0]
+    record.front, record.rear = front, rear
+    return record
 
 
 def test_the_returned_torque_is_the_mean_over_the_step():
-    start, end, energy = state(rate=0.5), state(), blank(CircuitEnergy)
-    h = 1e-3
-    mean = advance(SHIPPED, STIFFNESS, start, end, energy, energy, (0.0, 0.0, 0.0), 60.0, 0.0, 0.02, h, 64)
-    parts = [start]
+    parameters, h = axle(SHIPPED), 1e-3
+    demand = NO_COMMAND, 60.0, 0.0, 0.02
+    parts = [at(state(rate=0.5))]
+    mean = advance(parameters, parts[0], blank(AxleState), demand, h, 64)
     for _ in range(64):
-        parts.append(state())
-        advance(SHIPPED, STIFFNESS, *parts[-2:], energy, energy, (0.0, 0.0, 0.0), 60.0, 0.0, 0.02, h / 64, 1)
-    torques = STIFFNESS * (np.array([each.angle for each in parts]) - 0.02)
+        parts.append(blank(AxleState))
+        advance(parameters, *parts[-2:], demand, h / 64, 1)
+    torques = STIFFNESS * (np.array([each.circuit.angle for each in parts]) - 0.02)
     assert mean == pytest.approx(np.trapezoid(torques) / 64, rel=1e-6)
+
+
+def test_work_of_the_shaft_is_recovered_where_it_comes_back_and_throughput_never_falls():
+    parameters, now = axle(SHIPPED), at(state(angle=0.3, pressure=150 * BAR, stroke=0.2))
+    given = back = through = 0.0
+    for _ in range(200):
+        later = blank(AxleState)
+        advance(parameters, now, later, (NO_COMMAND, 60.0, 0.0, 0.0), 5e-5, 1)
+        shaft, motor = later.energy.shaft - now.energy.shaft, later.energy.motor - now.energy.motor
+        given, back, through = given + max(shaft, 0.0), back + max(-shaft, 0.0), through + abs(shaft) + abs(motor)
+        now = later
+    assert min(given, back) > 1.0  # J: it goes both ways
+    assert now.energy.recovered == pytest.approx(back, rel=1e-9)
+    assert now.energy.shaft == pytest.approx(given - back, rel=1e-9)
+    assert now.energy.throughput == pytest.approx(through, rel=1e-9)
 
 
 def test_the_pressure_follows_the_capacitance_of_the_turned_motor():
