@@ -31,7 +31,7 @@ def step_response(loop: Loop, gain: float, command: float, step: float, count: i
 
 @kernel
 def follow(axle, state, work, command, gain: float, step: float) -> None:
-    """Advance `state` by `step` s under a command (c0, c1, c2) as in `reduced_circuit.advance`, with K_p `gain`."""
+    """Advance `state` by `step` s under a command (c0, c1, c2) as in `third_order_circuit`, with K_p `gain`."""
     if axle.detail.plant == REDUCED_PLANT and axle.detail.stage == THIRD_ORDER:
         advance(axle, state, state, (command, gain, 0.0, 0.0), step, int(axle.substeps))
     else:

@@ -1,6 +1,6 @@
 """The detailed circuit: any stage of pump control before either plant, the reduced one or the full circuit.
 
-The verification set (`reduced_circuit.advance`) takes both as one. Here they are two, each at its own pace: in a
+The verification set (`third_order_circuit.advance`) takes both as one. Here they are two, each at its own pace: in a
 substep the pump control goes first, with the motor's angle and the pump's pressure predicted from their slopes; then
 the plant follows by classical Runge-Kutta with the stroke between both ends as a cubic. The prediction is off by h^3
 in the angle, so the whole is of third order; by h^2 in the pressure, whose force on the swash plate hardly moves it.
@@ -139,7 +139,7 @@ def detailed_rates(axle, x, dx, power, stroke, twist, valves) -> None:
 def advance_detailed(axle, now, later, demand, valves, step: float, work) -> float:
     """Advance the circuit of `axle` by `step` s; return the mean bar torque (Nm).
 
-    `now` and `later` are axle states; `demand` is (command, gain, stroke_bias, twist) as in `reduced_circuit.advance`,
+    `now` and `later` are axle states; `demand` is (command, gain, bias, twist) as in `third_order_circuit.axle_rates`,
     `valves` the commanded openings (bypass, fail-safe), `work` a WORK record.
     """
     circuit, detail, count = axle.circuit, axle.detail, int(axle.substeps)
