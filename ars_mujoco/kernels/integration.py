@@ -36,20 +36,15 @@ def runge_kutta(rates):
         k2, p2, m2 = rates(p, demand, t + 0.5 * h, along(state, k1, 0.5 * h))
         k3, p3, m3 = rates(p, demand, t + 0.5 * h, along(state, k2, 0.5 * h))
         k4, p4, m4 = rates(p, demand, t + h, along(state, k3, h))
-        return (
-            weighted(state, k1, k2, k3, k4, h),
-            mean(p1, p2, p3, p4),
-            mean(m1, m2, m3, m4),
-        )
+        return weighted(state, k1, k2, k3, k4, h), mean(p1, p2, p3, p4), mean(m1, m2, m3, m4)
 
     return stepped
 
 
 def in_substeps(rates, settled=left, counted=alone):
-    """A kernel that takes a tuple of states through a physics step of `step` s in `count` substeps.
+    """A kernel that takes a tuple of states through a physics step of `step` s in `count` substeps, one at least.
 
     It gives the new state, the energies of the step (J, with the weights of the states), and the mean torques (Nm).
-    A step has one substep at least.
     `settled(p, state)` is where the state comes to stand after a substep, as at a stop that holds it; `counted(powers)`
     makes of the mean powers of a substep those to be summed up, as of what needs |.|.
     """
