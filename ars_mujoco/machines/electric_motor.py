@@ -4,7 +4,7 @@ The state is the slip, no-load speed less the rotor's, so that zero is a motor t
 """
 
 import math
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import ConfigDict
 
@@ -30,7 +30,7 @@ class ElectricMotor(Parameters):
 
 
 @kernel
-def turn(motor, slip: float, load: float, step: float):
+def turn(motor: ElectricMotor, slip: float, load: float, step: float) -> Any:
     """(slip rad/s after `step` s, mean torque Nm of the motor over it) under a constant load (Nm).
 
     J dn/dt = M_motor - M_load, solved exactly; where the mean torque is limited, so is the rotor's acceleration.
@@ -42,6 +42,6 @@ def turn(motor, slip: float, load: float, step: float):
 
 
 @kernel
-def electrical_power(motor, shaft_power: float) -> float:
+def electrical_power(motor: ElectricMotor, shaft_power: float) -> float:
     """Power (W) taken from the supply for a power at the shaft; negative where the motor feeds back."""
     return shaft_power / motor.efficiency if shaft_power > 0.0 else shaft_power * motor.efficiency
