@@ -4,8 +4,9 @@
                           └─────> states, channels, energies
 
 A system is of the car: both axles, and whatever they share. It is a module with the names below, in a folder
-`actuators/<name>/` or in a user's own file. A rig hands the module on as a value; numba takes a module for a constant, so
-that `system.advance` is resolved while compiling and costs what a direct call does. Nothing outside reads any other name.
+`actuators/<name>/` or in a user's own file. A rig hands the module on as a value; numba takes a module for a constant,
+so that `system.advance` is resolved while compiling and costs what a direct call does. Nothing outside reads any other
+name.
 
 Data:
 
@@ -60,7 +61,7 @@ Moment = namedtuple("Moment", "time step road_speed unit")
 
 
 class Torsion(NamedTuple):
-    """Torsion (Nm/rad) of one axle's bar: the split one, both halves in series, and the conventional one in its place."""
+    """Torsion (Nm/rad) of one axle's bar: the split one, both halves in series, and the conventional one."""
 
     stiffness: float
     passive_stiffness: float
@@ -77,7 +78,7 @@ class Car(NamedTuple):
 
 
 class Input(NamedTuple):
-    """Something that a cycle may command: its SI unit, what it is without a command, and its least and largest value."""
+    """Something that a cycle may command: its SI unit, its value without a command, the least and the largest one."""
 
     unit: str
     rest: float

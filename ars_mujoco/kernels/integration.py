@@ -1,4 +1,4 @@
-"""Integration: a system of ordinary differential equations through a physics step, in substeps of classical Runge-Kutta.
+"""Integration: ordinary differential equations through a physics step, in substeps of classical Runge-Kutta.
 
 A system writes its equations as
 
@@ -6,9 +6,9 @@ A system writes its equations as
     def rates(p, demand, t, state):
         return derivatives, powers, torques
 
-three tuples: of the states' derivatives, of the powers (W) behind its energies, and of the bars' torques (Nm), at a time
-t (s) since the start of the step. `demand` is whatever holds over the step. States and powers stand in the order of the
-records that keep them.
+three tuples: of the states' derivatives, of the powers (W) behind its energies, and of the bars' torques (Nm), at a
+time t (s) since the start of the step. `demand` is whatever holds over the step. States and powers stand in the order
+of the records that keep them.
 """
 
 from ars_mujoco.kernels.kernel import inlined
@@ -34,7 +34,7 @@ def runge_kutta(rates):
 
 
 def integrated(rates):
-    """A kernel that takes a system through a physics step of `step` s in `count` substeps, and returns its mean torques.
+    """A kernel that takes a system through a physics step (s) in `count` substeps, and returns its mean torques.
 
     `now` and `later` are records with a `state` and an `energy`, whose numbers are the states and what the powers have
     summed up to (J), with the weights of the states.

@@ -5,8 +5,8 @@
 
 Both limits are circles in the plane of the currents: |i| <= I about zero, and |u| <= V about the currents at which the
 machine would idle shorted. The torque current lies within both; the field current i_d is the least that the voltage
-asks for, so that it is zero up to the corner speed and weakens the field beyond. Currents and voltages are amplitudes of
-a phase. Magnetic energy is not counted: at most 0.6 J in a machine of a roll stabilizer.
+asks for, so that it is zero up to the corner speed and weakens the field beyond. Currents and voltages are amplitudes
+of a phase. Magnetic energy is not counted: at most 0.6 J in a machine of a roll stabilizer.
 """
 
 import math
@@ -99,8 +99,8 @@ def current_within(machine: ElectricMachine, speed: float, other: float, power: 
 
 @kernel
 def _end(machine: ElectricMachine, d: float, q: float, radius: float, limit: float) -> float:
-    # the torque current of the sign of `limit` that is farthest out: on the current's circle, on the voltage's, or where
-    # both meet; there the field current may reach its own limit first
+    # the torque current of the sign of `limit` that is farthest out: on the current's circle, on the voltage's, or
+    # where both meet; there the field current may reach its own limit first
     if d * d + (limit - q) * (limit - q) <= radius * radius:
         return limit
     side, least = math.copysign(1.0, limit), -machine.field_current_limit

@@ -1,12 +1,12 @@
 """Planetary gear: between a fast machine and a slow bar, with friction in all four quadrants, backlash and stiffness.
 
-Its friction grows with what its teeth carry. Driving, the output gets the share eta of the machine's torque; driven back,
-the machine gets 2 - 1/eta of the output's. One form serves all quadrants:
+Its friction grows with what its teeth carry. Driving, the output gets the share eta of the machine's torque; driven
+back, the machine gets 2 - 1/eta of the output's. One form serves all quadrants:
 
     M_f = (1 - eta)/(1 + eta) |i T + M| + M_0
 
-against the motion, and rounded at standstill, where the gear so holds anything between both. It gives eta back where the
-exact form gives 2 - 1/eta: 0.880 for 0.864.
+against the motion, and rounded at standstill, where the gear so holds anything between both. It gives eta back where
+the exact form gives 2 - 1/eta: 0.880 for 0.864.
 """
 
 import math
@@ -29,7 +29,7 @@ class PlanetaryGear(Parameters):
 
 @kernel
 def gear_friction(gear: PlanetaryGear, driving: float, load: float, speed: float) -> float:
-    """Torque (Nm) at the output against its speed (rad/s): `driving` is i T of the machine, `load` the output's torque."""
+    """Torque (Nm) against the output's speed (rad/s): `driving` is i T of the machine, `load` the output's torque."""
     size = (1.0 - gear.efficiency) / (1.0 + gear.efficiency) * abs(driving + load) + gear.friction
     return size * math.tanh(speed / gear.sign_speed) + gear.damping * speed
 

@@ -1,8 +1,8 @@
 """Strokes: from commanded bar angles to what both pumps are asked for, and both circuits on their drive.
 
-This part every stage shares; `circuits` is the module of one stage, with its `advance_circuits`, `report` and `openings`.
-The outer loop runs in the car's control unit. A continuous unit delays the commanded angle and leaves the outer loop to
-the circuits' substeps; a sampling unit computes the outer loop itself and delays the stroke.
+This part every stage shares; `circuits` is the module of one stage, with its `advance_circuits`, `report` and
+`openings`. The outer loop runs in the car's control unit. A continuous unit delays the commanded angle and leaves the
+outer loop to the circuits' substeps; a sampling unit computes the outer loop itself and delays the stroke.
 """
 
 import numpy as np
