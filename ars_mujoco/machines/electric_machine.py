@@ -110,7 +110,8 @@ def _end(machine: ElectricMachine, d: float, q: float, radius: float, limit: flo
     square = d * d + q * q
     along = 0.5 * (limit * limit - radius * radius + square) / square
     across = math.sqrt(max(limit * limit / square - along * along, 0.0))
-    meeting = along * side * q + across * abs(d)
+    within = abs(limit) > radius + math.sqrt(square)  # the voltage's circle: they do not meet
+    meeting = math.inf if within else along * side * q + across * abs(d)
     room = radius * radius - (least - d) * (least - d)
     if room < 0.0 and d < least:  # so fast that no field current suffices: the machine can only be let go
         return 0.0

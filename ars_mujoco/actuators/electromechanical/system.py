@@ -146,7 +146,7 @@ def is_beyond(p, state) -> bool:
 
 
 def fill(record, file: File, car: Car, step: float) -> None:
-    """Write the parameters; the substeps are those of the stiffest equations, at rest and moving."""
+    """Write the parameters; the substeps are those of the stiffest equations: at rest, moving, loaded."""
     fill_block(record.supply, file.supply)
     record.has_rear = car.rear is not None
     for name, torsion in (("front", car.front), ("rear", car.rear or car.front)):
@@ -155,12 +155,23 @@ def fill(record, file: File, car: Car, step: float) -> None:
     nudges, looks = scales(Equations), []
     idle = BarCommand((0.0, 0.0, 0.0), 0.0)
     demand = (Command(idle, idle, np.full(len(INPUTS), DRIVEN)), 0.0, 0.0)
-    for rate in (0.0, 1.0):  # rad/s of the bars
+    for rate, load in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)):  # rad/s of the bars; share of the greatest torque
         state = np.zeros(1, record_dtype(Equations)).view(np.recarray)[0]
         _rest(record, state)
         state.front.rotor_rate = state.front.rate = state.rear.rotor_rate = state.rear.rate = rate
+        for name in ("front", "rear"):
+            _press(record[name].unit, state[name], load)
         looks.append(slopes(_derivatives, record, demand, state, nudges))
     record.substeps = fewest_substeps(looks, step)
+
+
+def _press(unit, state, load: float) -> None:
+    """Let the machine press the teeth together with a share of the greatest torque: within the backlash the gear's
+    stiffness does not show, and without load its friction is at its smallest.
+    """
+    torque, gear = load * unit.loops.max_torque, unit.gear
+    state.current = torque / (gear.ratio * torque_constant(unit.drive.machine))
+    state.rotor_angle = state.angle + load * (0.5 * gear.backlash + unit.loops.max_torque / gear.stiffness)
 
 
 def start(record, state) -> None:

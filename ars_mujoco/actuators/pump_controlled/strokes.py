@@ -91,7 +91,8 @@ def advance_stage(p, now, later, out, work, command, twists, moment, circuits):
         circuits.report(p.rear, now.rear, out.rear, twists.rear.angle, work)
     shaft = circuits.shaft_work
     done = shaft(later.front) - shaft(now.front) + shaft(later.rear) - shaft(now.rear)
-    take_work(p.drive, now.drive, later.drive, out.drive, done, step)
+    asked = max(abs(command.front.angle[0]), abs(command.rear.angle[0]))
+    take_work(p.drive, now.drive, later.drive, out.drive, done, asked, step)
     return torques
 
 
