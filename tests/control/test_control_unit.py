@@ -45,6 +45,7 @@ def arrived(steps, asked):
     """What arrives of BarCommands (front, rear), given one pair a step to a unit of that delay."""
     record, lines, found = filled(unit(delay=f"{steps} ms")), np.zeros(2, COMMAND_LINE).view(np.recarray), []
     for front, rear in asked:
+        lines.values[1] = np.nan  # what the step after holds counts for nothing
         found.append(arrive_late(record, lines[0], lines[1], front, rear, STEP))
         lines[0] = lines[1]
     return found

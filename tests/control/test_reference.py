@@ -7,7 +7,17 @@ from records import blank, filled
 from ars_mujoco.actuators.bars import STIFFNESS
 from ars_mujoco.actuators.system import Twist, Twists
 from ars_mujoco.control.control_unit import ControlUnit
-from ars_mujoco.control.reference import ANGLE, BOTH, PARAMETERS, STATE, TORQUE, commanded, own_reference, put
+from ars_mujoco.control.reference import (
+    ANGLE,
+    BOTH,
+    PARAMETERS,
+    STATE,
+    TORQUE,
+    commanded,
+    own_reference,
+    put,
+    read_accelerometer,
+)
 from ars_mujoco.control.sensors import Sensors
 
 STEP = 1e-3
@@ -82,11 +92,12 @@ def test_torques_are_held_between_samples_too():
     assert torques(reference(), readings, "5 ms")[:, 1] == pytest.approx(np.repeat(6.0 * readings[::5], 5))
 
 
-def test_what_the_trim_adds_to_the_angles_the_bars_turn_into_torques():
-    args, roll = (np.full(500, 5.0), "1 ms"), {"roll": 0.004}
-    added = commands(reference(2.0), *args, **roll) - commands(reference(), *args, **roll)
-    assert added[-1, 0] > 1e-3
-    in_torque = torques(reference(2.0), *args, **roll) - torques(reference(), *args, **roll)
+@pytest.mark.parametrize(("speed", "share"), [(2.0, 0.5), (30.0, 1.0)])
+def test_what_the_trim_adds_to_the_angles_the_bars_turn_into_torques(speed, share):
+    args, sensed = (np.full(500, 5.0), "1 ms"), {"roll": 0.004, "speed": speed}
+    added = commands(reference(2.0), *args, **sensed) - commands(reference(), *args, **sensed)
+    assert added[-1] == pytest.approx(share * 2.0 * (0.004 - 0.001) * 0.5, rel=1e-9)
+    in_torque = torques(reference(2.0), *args, **sensed) - torques(reference(), *args, **sensed)
     assert in_torque == pytest.approx(added * [TORSIONS.front, TORSIONS.rear], rel=1e-9)
 
 
@@ -101,6 +112,16 @@ def test_damping_acts_in_both_at_any_speed():
 def test_at_walking_pace_torques_act_by_the_same_share():
     for speed, share in [(0.0, 0.0), (2.0, 0.5), (10.0, 1.0)]:
         assert torques(reference(), [5.0], "1 ms", speed=speed) == pytest.approx(share * np.array([[40.0, 30.0]]))
+
+
+def test_what_was_last_computed_stays_until_the_next_sample():
+    now, later = np.zeros(2, STATE).view(np.recarray)
+    names = ("memory", "front", "rear", "front_torque", "rear_torque")
+    for i, name in enumerate(names):
+        now[name], later[name] = i + 1.0, np.nan
+    read_accelerometer(reference(), now, later, blank(Sensors), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 0.0, STEP)
+    for name in names:
+        np.testing.assert_array_equal(later[name], now[name])
 
 
 # ---- what is handed on
