@@ -44,6 +44,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ars_mujoco.control.control_unit import ControlUnit
+from ars_mujoco.schema.channels import channel
 from ars_mujoco.schema.errors import InputError
 from ars_mujoco.schema.parameters import Parameters
 
@@ -58,6 +59,13 @@ Twists = namedtuple("Twists", "front rear")
 
 # time s at which the step begins, its length s, road speed m/s, and the car's control unit, a ControlUnit record
 Moment = namedtuple("Moment", "time step road_speed unit")
+
+
+class BarOutput(Parameters):
+    """What every system that turns a bar's halves records of it, as `bar`."""
+
+    angle: float = channel("rad", "angle between the bar's halves")
+    command: float = channel("rad", "commanded angle; of a commanded torque the one at which the bar gives it")
 
 
 class Torsion(NamedTuple):
