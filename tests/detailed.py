@@ -14,7 +14,9 @@ from ars_mujoco.recording.recording import Recording
 from ars_mujoco.studies.inputs import read_inputs
 
 ACTUATORS = {"reduced": "verification", "full": "pump_controlled_full"}
-FIXED = ("actuator.control.loop.gain=60 1/rad", "actuator.control.loop.schedule=0")  # the verification set's loop
+FIXED = (  # the verification set's loop, and its plate that only the flow knows to be at its stop
+    "actuator.control.loop.gain=60 1/rad", "actuator.control.loop.schedule=0", "actuator.front.swash_plate.stop=flow",
+)  # fmt: skip
 STAGES = ("third_order", "reduced", "full")
 VARIANTS = [(circuit, stage) for circuit in ACTUATORS for stage in STAGES]
 

@@ -6,8 +6,8 @@ import sys
 import pytest
 
 KERNELS = (
-    "actuators.pump_controlled.third_order_circuit", "actuators.pump_controlled.drive_speed", "hydraulics.pump", "control.accelerometer", "tires.tire",
-    "driving.driver",
+    "actuators.pump_controlled.third_order_circuit", "actuators.pump_controlled.drive_speed", "hydraulics.pump",
+    "control.accelerometer", "tires.tire", "driving.driver", "machines.electric_drive",
 )  # fmt: skip
 
 

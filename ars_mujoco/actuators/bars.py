@@ -3,9 +3,9 @@
 Signs: twist = left arm's angle less the right's (each positive in jounce); positive bar angle and torque push the body
 to negative roll, so the torque acts +M on the left half and -M on the right half.
 
-A system is integrated over the coming step with the twist held, and its mean torque acts on the car over that same step.
-The work of a step on the car is torque times the mean of the twist rates at its two ends, so it is known only at the next
-call.
+A system is integrated over the coming step with the twist held, and its mean torque acts on the car over that same
+step. The work of a step on the car is torque times the mean of the twist rates at its two ends, so it is known only at
+the next call.
 """
 
 import mujoco

@@ -13,19 +13,19 @@ from typing import NamedTuple
 import numpy as np
 from pydantic import create_model
 
-from ars_mujoco.actuators.system import Car, Torsion, Twist
-from ars_mujoco.control.control_unit import BarCommand
+from ars_mujoco.actuators.system import BarOutput, Car, Torsion, Twist
+from ars_mujoco.control.control_unit import NOTHING_ASKED
 from ars_mujoco.kernels.integration import integrated
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.records import share, store
 from ars_mujoco.kernels.substeps import derivatives, fewest_substeps, scales, slopes
-from ars_mujoco.schema.channels import channel, stored
+from ars_mujoco.schema.channels import stored
 from ars_mujoco.schema.parameters import Parameters, record_dtype
 from ars_mujoco.schema.parameters import fill as fill_block
 
 FAR = 1.6  # rad between the halves of a bar; nothing turns it by more than a quarter
 FAR_FROM_REST = 1e3  # of what is little of each state: there, too, the substeps are looked at
-IDLE = (BarCommand((0.0, 0.0, 0.0), 0.0), Twist(0.0, 0.0, 0.0))
+IDLE = (NOTHING_ASKED, Twist(0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True)
@@ -99,11 +99,6 @@ def pair(part: Part) -> System:
 
 class BarEnergy(Parameters):
     bar: float = stored("stored in the bar's torsion")
-
-
-class BarOutput(Parameters):
-    angle: float = channel("rad", "angle between the bar's halves")
-    command: float = channel("rad", "commanded angle")
 
 
 def equations(file: type[Parameters], state: type[Parameters], energy: type[Parameters], rates: Callable) -> Part:

@@ -4,8 +4,9 @@
                           └─────> states, channels, energies
 
 A system is of the car: both axles, and whatever they share. It is a module with the names below, in a folder
-`actuators/<name>/` or in a user's own file. A rig hands the module on as a value; numba takes a module for a constant, so
-that `system.advance` is resolved while compiling and costs what a direct call does. Nothing outside reads any other name.
+`actuators/<name>/` or in a user's own file. A rig hands the module on as a value; numba takes a module for a constant,
+so that `system.advance` is resolved while compiling and costs what a direct call does. Nothing outside reads any other
+name.
 
 Data:
 
@@ -43,6 +44,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ars_mujoco.control.control_unit import ControlUnit
+from ars_mujoco.schema.channels import channel
 from ars_mujoco.schema.errors import InputError
 from ars_mujoco.schema.parameters import Parameters
 
@@ -59,8 +61,15 @@ Twists = namedtuple("Twists", "front rear")
 Moment = namedtuple("Moment", "time step road_speed unit")
 
 
+class BarOutput(Parameters):
+    """What every system that turns a bar's halves records of it, as `bar`."""
+
+    angle: float = channel("rad", "angle between the bar's halves")
+    command: float = channel("rad", "commanded angle; of a commanded torque the one at which the bar gives it")
+
+
 class Torsion(NamedTuple):
-    """Torsion (Nm/rad) of one axle's bar: the split one, both halves in series, and the conventional one in its place."""
+    """Torsion (Nm/rad) of one axle's bar: the split one, both halves in series, and the conventional one."""
 
     stiffness: float
     passive_stiffness: float
@@ -77,7 +86,7 @@ class Car(NamedTuple):
 
 
 class Input(NamedTuple):
-    """Something that a cycle may command: its SI unit, what it is without a command, and its least and largest value."""
+    """Something that a cycle may command: its SI unit, its value without a command, the least and the largest one."""
 
     unit: str
     rest: float

@@ -17,7 +17,7 @@ from numba import carray, from_dtype, types
 from numba.extending import intrinsic
 
 from ars_mujoco.bridge import mujoco_layout
-from ars_mujoco.bridge.world import HEADER, MAGIC, OTHER_LAYOUT, layout_version, stop
+from ars_mujoco.bridge.world import HEADER, MAGIC, OTHER_LAYOUT, stop
 from ars_mujoco.kernels.kernel import interpreted, kernel
 from ars_mujoco.schema.errors import ArsError
 
@@ -75,7 +75,7 @@ def _carries(model: mujoco.MjModel, rig) -> bool:
     size = rig.SIZE
     if model.nuserdata != size or model.nnumericdata < size + rig.TABLES_SIZE:
         return False
-    return tuple(model.numeric_data[-size:][:2]) == (MAGIC, layout_version(rig.WORLD))
+    return tuple(model.numeric_data[-size:][:2]) == (MAGIC, rig.VERSION)
 
 
 def tables_of(rig, model: mujoco.MjModel) -> np.record:
@@ -98,7 +98,7 @@ def python_callback(rig, law=None):
         world = np.asarray(data.userdata).view(rig.WORLD).view(np.recarray)
         if world[0].header.magic != MAGIC:
             data.userdata[:] = model.numeric_data[-model.nuserdata :]
-        if world[0].header.version != layout_version(rig.WORLD):
+        if world[0].header.version != rig.VERSION:
             stop(world[0], OTHER_LAYOUT, data.time)
             return
         if not interpreted:  # only the law is in Python

@@ -14,6 +14,7 @@ from ars_mujoco.schema.parameters import Parameters, quantity
 
 # what a bar is asked for over the step: `angle` (c0, c1, c2), c0 + c1 t + c2 t^2 in rad since its start; `torque` in Nm
 BarCommand = namedtuple("BarCommand", "angle torque")
+NOTHING_ASKED = BarCommand((0.0, 0.0, 0.0), 0.0)
 
 SLOTS = 64  # physics steps the delay line holds
 
@@ -50,10 +51,8 @@ def samples_now(unit, time: float, step: float) -> bool:
 @kernel
 def delayed(unit, line, front: float, rear: float, step: float):
     """Push this step's output into the delay line, and return what leaves it `unit.delay` later."""
-    head = int(line.head)
+    head, tail = _move_on(unit, line, step)
     line.front[head], line.rear[head] = front, rear
-    line.head = float((head + 1) % SLOTS)
-    tail = (head - round(unit.delay / step)) % SLOTS
     return line.front[tail], line.rear[tail]
 
 
@@ -68,16 +67,22 @@ def arrive_late(unit, now, later, front, rear, step: float):
     """The BarCommands of `unit.delay` before; `now` and `later` are COMMAND_LINE records."""
     if unit.delay == 0.0:
         return front, rear
-    later.values[:] = now.values
-    head = int(now.head)
-    later.values[0, head], later.values[1, head] = front.angle[0], rear.angle[0]
-    later.values[2, head], later.values[3, head] = front.torque, rear.torque
-    later.head = float((head + 1) % SLOTS)
-    tail, line = (head - round(unit.delay / step)) % SLOTS, later.values
+    later.values[:], later.head = now.values, now.head
+    (head, tail), line = _move_on(unit, later, step), later.values
+    line[0, head], line[1, head] = front.angle[0], rear.angle[0]
+    line[2, head], line[3, head] = front.torque, rear.torque
     return (
         BarCommand((line[0, tail], 0.0, 0.0), line[2, tail]),
         BarCommand((line[1, tail], 0.0, 0.0), line[3, tail]),
     )
+
+
+@kernel
+def _move_on(unit, line, step: float):
+    # a delay line by one step: (slot of what enters it, slot of what leaves it)
+    head = int(line.head)
+    line.head = float((head + 1) % SLOTS)
+    return head, (head - round(unit.delay / step)) % SLOTS
 
 
 def check_timing(unit: ControlUnit, step: float) -> None:

@@ -21,7 +21,7 @@ class Reference(Parameters):
 
 
 class Controller(Parameters):
-    """Reference (not on the bench, whose cycle commands the bar's angle) and control unit: all that is above the actuator.
+    """Reference (not on the bench, whose cycle commands the bar) and control unit: all that is above the actuator.
 
     `law` names a Python file whose function `command(sensors, memory)` takes the place of the target map.
     """

@@ -124,6 +124,6 @@ def _load(path: Path):
     function, gives = getattr(module, FUNCTION, None), getattr(module, "GIVES", "angle")
     if not callable(function):
         raise InputError(f"{path}: has no function {FUNCTION}(sensors, memory)")
-    if gives not in GIVES:
+    if gives not in list(GIVES):  # whatever it is
         raise InputError(f"{path}: GIVES is {gives!r}; allowed: {', '.join(GIVES)}")
     return function, GIVES[gives]

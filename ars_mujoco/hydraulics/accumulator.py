@@ -18,19 +18,19 @@ class Accumulator(Parameters):
 
 
 @kernel
-def accumulator_rate(accumulator, pressure: float, flow: float) -> float:
+def accumulator_rate(accumulator: Accumulator, pressure: float, flow: float) -> float:
     """Rate (Pa/s) of the gas pressure (Pa, absolute) as a flow of oil (m^3/s) comes in."""
     return accumulator.exponent * pressure / gas_volume(accumulator, pressure) * flow
 
 
 @kernel
-def gas_volume(accumulator, pressure: float) -> float:
+def gas_volume(accumulator: Accumulator, pressure: float) -> float:
     """Volume (m^3) of the gas at an absolute pressure (Pa)."""
     return accumulator.volume * (accumulator.pressure / pressure) ** (1.0 / accumulator.exponent)
 
 
 @kernel
-def accumulator_energy(accumulator, pressure: float) -> float:
+def accumulator_energy(accumulator: Accumulator, pressure: float) -> float:
     """Energy (J) stored in the gas over that at rest: what the oil that came in pressed against p - p_0."""
     n, rest, volume = accumulator.exponent, accumulator.pressure, gas_volume(accumulator, pressure)
     compressed = (pressure * volume - rest * accumulator.volume) / (n - 1.0)

@@ -18,6 +18,6 @@ class BypassValve(Parameters):
 
 
 @kernel
-def bypass_flow(valve, opening: float, difference: float) -> float:
+def bypass_flow(valve: BypassValve, opening: float, difference: float) -> float:
     """Flow (m^3/s) through an opening (0 to 1), with the sign of the pressure difference (Pa)."""
     return opening * valve.flow / math.sqrt(valve.pressure) * rounded_root(difference, ROUNDING)

@@ -15,19 +15,19 @@ class ChargePump(Parameters):
 
 
 @kernel
-def charge_flow(charge, speed: float) -> float:
+def charge_flow(charge: ChargePump, speed: float) -> float:
     """Flow (m^3/s) from the tank into the gallery at a shaft speed (rad/s)."""
     return charge.displacement * speed
 
 
 @kernel
-def charge_relief_flow(charge, pressure: float) -> float:
+def charge_relief_flow(charge: ChargePump, pressure: float) -> float:
     """Flow (m^3/s) from the gallery at an absolute pressure (Pa) to the tank."""
     return charge.relief_conductance * max(pressure - charge.relief_pressure, 0.0)
 
 
 @kernel
-def charge_power(charge, speed: float, pressure: float, tank: float) -> float:
+def charge_power(charge: ChargePump, speed: float, pressure: float, tank: float) -> float:
     """Power (W) the shaft gives to lift the flow from `tank` to `pressure` (Pa, absolute), over the efficiency.
 
     A gallery drawn below the tank's pressure would drive the pump; the loss is a loss then too.

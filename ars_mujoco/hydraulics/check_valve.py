@@ -12,6 +12,6 @@ class CheckValve(Parameters):
 
 
 @kernel
-def check_flow(valve, ahead: float, behind: float) -> float:
+def check_flow(valve: CheckValve, ahead: float, behind: float) -> float:
     """Flow (m^3/s, never negative) from the pressure `ahead` of the valve to that `behind` it (Pa)."""
     return valve.conductance * max(ahead - behind - valve.opening_pressure, 0.0)

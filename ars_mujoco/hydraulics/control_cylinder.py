@@ -5,6 +5,7 @@ their signs exchanged; and the series capacitance of eq. 8 falls with x^2, where
 """
 
 import math
+from typing import Any
 
 from ars_mujoco.hydraulics.oil import compressibility, compressibility_slope
 from ars_mujoco.kernels.kernel import kernel
@@ -33,7 +34,7 @@ class ControlCylinder(Parameters):
 
 
 @kernel
-def cylinder_friction(cylinder, rate: float):
+def cylinder_friction(cylinder: ControlCylinder, rate: float) -> Any:
     """Friction force (N) at a piston speed (m/s) and its slope (Ns/m): eq. 2 with sign() rounded to tanh()."""
     decay = cylinder.static_friction * math.exp(-cylinder.static_decay * abs(rate))
     dry = cylinder.coulomb_friction + decay
@@ -43,7 +44,7 @@ def cylinder_friction(cylinder, rate: float):
 
 
 @kernel
-def stop_force(cylinder, travel: float, rate: float):
+def stop_force(cylinder: ControlCylinder, travel: float, rate: float) -> Any:
     """Force (N) of the mechanical stops, which push but do not pull, and its slopes by travel and by speed."""
     beyond, outward = abs(travel) - cylinder.travel, math.copysign(1.0, travel)
     force = cylinder.stop_stiffness * beyond + cylinder.stop_damping * outward * rate
@@ -53,7 +54,9 @@ def stop_force(cylinder, travel: float, rate: float):
 
 
 @kernel
-def piston_acceleration(cylinder, force: float, travel: float, rate: float, pump_pressure: float):
+def piston_acceleration(
+    cylinder: ControlCylinder, force: float, travel: float, rate: float, pump_pressure: float
+) -> Any:
     """Acceleration (m/s^2) under a pressure `force` (N), and its slopes by travel and by speed (eq. 1)."""
     friction, friction_slope = cylinder_friction(cylinder, rate)
     stop, stop_by_travel, stop_by_rate = stop_force(cylinder, travel, rate)
@@ -67,20 +70,20 @@ def piston_acceleration(cylinder, force: float, travel: float, rate: float, pump
 
 
 @kernel
-def chamber_volumes(cylinder, travel: float):
+def chamber_volumes(cylinder: ControlCylinder, travel: float) -> Any:
     """Volumes (m^3) of chambers A and B: eqs. 5 and 6 with the signs that eq. 1 needs."""
     middle, shift = cylinder.dead_volume + cylinder.area * cylinder.travel, cylinder.area * travel
     return middle + shift, middle - shift
 
 
 @kernel
-def chamber_capacitance(fluid, volume: float, pressure: float):
+def chamber_capacitance(fluid: Any, volume: float, pressure: float) -> Any:
     """Capacitance (m^3/Pa) of a chamber at a pressure (Pa), and its slope by pressure (eq. 7)."""
     return volume * compressibility(fluid, pressure), volume * compressibility_slope(fluid, pressure)
 
 
 @kernel
-def common_capacitance(cylinder, fluid, travel: float, pressure: float) -> float:
+def common_capacitance(cylinder: ControlCylinder, fluid: Any, travel: float, pressure: float) -> float:
     """Capacitance (m^3/Pa) of both chambers in series: eq. 8 with the minus sign that its algebra gives."""
     a, b = chamber_volumes(cylinder, travel)
     return a * b / (a + b) * compressibility(fluid, pressure)

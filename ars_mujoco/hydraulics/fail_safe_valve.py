@@ -20,13 +20,13 @@ class FailSafeValve(Parameters):
 
 
 @kernel
-def is_shut(valve, opening: float) -> bool:
+def is_shut(valve: FailSafeValve, opening: float) -> bool:
     """Whether an opening (0 to 1) lets no oil pass."""
     return opening < SHUT
 
 
 @kernel
-def fail_safe_drop(valve, opening: float, flow: float) -> float:
+def fail_safe_drop(valve: FailSafeValve, opening: float, flow: float) -> float:
     """Pressure (Pa) that a flow (m^3/s) loses through an opening that is not shut, with the sign of the flow: in
     proportion to its square, and to the flow itself where that is small, so that a slope is left at zero.
     """
@@ -36,7 +36,7 @@ def fail_safe_drop(valve, opening: float, flow: float) -> float:
 
 
 @kernel
-def fail_safe_flow(valve, opening: float, difference: float) -> float:
+def fail_safe_flow(valve: FailSafeValve, opening: float, difference: float) -> float:
     """Flow (m^3/s) that a pressure difference (Pa) drives through an opening, with its sign; none through one that is
     shut.
     """

@@ -32,7 +32,7 @@ class FixedPump(Parameters):
 
 
 @kernel
-def loss_torque(pump, speed: float, pressure: float) -> float:
+def loss_torque(pump: FixedPump, speed: float, pressure: float) -> float:
     """Torque loss (Nm) against the motion at a speed (rad/s), under a pressure difference (Pa)."""
     boundary = pump.boundary_friction
     dry = pump.torque_loss.norm * boundary.share * math.exp(-abs(speed) / boundary.decay_speed)
@@ -41,6 +41,6 @@ def loss_torque(pump, speed: float, pressure: float) -> float:
 
 
 @kernel
-def fixed_pump_extrapolation(pump, speed: float, pressure: float) -> float:
+def fixed_pump_extrapolation(pump: FixedPump, speed: float, pressure: float) -> float:
     """How far the pump runs outside the range of its losses, as a share of the range's end; 0 inside."""
     return beyond(pump.torque_loss, FULL, speed, pressure)

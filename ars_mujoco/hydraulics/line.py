@@ -1,5 +1,6 @@
 """Lines and chambers: the compressible oil between pump and motor (paper eqs. 30 to 32), as one capacitance."""
 
+from ars_mujoco.hydraulics.vane_motor import VaneMotor
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.schema.parameters import Parameters, choice, quantity
 
@@ -19,13 +20,13 @@ class Line(Parameters):
 
 
 @kernel
-def middle_volume(line, motor) -> float:
+def middle_volume(line: Line, motor: VaneMotor) -> float:
     """Volume of one side (m^3), line and chamber, with the motor in its middle position: V_0 (eqs. 30, 31)."""
     return line.volume + motor.displacement * motor.stop_angle
 
 
 @kernel
-def capacitance(line, motor, angle: float, pressure: float) -> float:
+def capacitance(line: Line, motor: VaneMotor, angle: float, pressure: float) -> float:
     """Capacitance (m^3/Pa) at a motor angle: of both sides in series, eq. 32 with the minus sign that its algebra
     gives; one-sided, of the side that the sign of `pressure` (Pa, the difference) makes the high one.
     """
@@ -34,7 +35,7 @@ def capacitance(line, motor, angle: float, pressure: float) -> float:
 
 
 @kernel
-def capacitance_slope(line, motor, angle: float, pressure: float) -> float:
+def capacitance_slope(line: Line, motor: VaneMotor, angle: float, pressure: float) -> float:
     """Derivative of `capacitance` by the angle (m^3/Pa/rad)."""
     share = motor.displacement / middle_volume(line, motor)
     return line.capacitance * share * (line.sides * _high_side(pressure) - 2.0 * (1.0 - line.sides) * share * angle)

@@ -5,6 +5,7 @@ would mean 76 L/min at 0.3 mm and 12.5 bar.
 """
 
 import math
+from typing import Any
 
 from pydantic import ValidationInfo, field_validator
 
@@ -33,7 +34,7 @@ class MeteringEdge(Parameters):
 
 
 @kernel
-def edge_flow_a(edge, spool: float, pressure: float):
+def edge_flow_a(edge: MeteringEdge, spool: float, pressure: float) -> Any:
     """Flow (m^3/s) into chamber A at a spool stroke (fraction), and its slopes by stroke and by pressure (eq. 9)."""
     opening = edge.constant * edge.stroke * spool
     if spool >= 0.0:
@@ -47,14 +48,14 @@ def edge_flow_a(edge, spool: float, pressure: float):
 
 
 @kernel
-def edge_flow_b(edge, spool: float, pressure: float):
+def edge_flow_b(edge: MeteringEdge, spool: float, pressure: float) -> Any:
     """Flow (m^3/s) into chamber B and its slopes: eq. 10, whose sign against eqs. 4 and 13 the printed form loses."""
     flow, by_spool, by_pressure = edge_flow_a(edge, -spool, pressure)
     return flow, -by_spool, by_pressure
 
 
 @kernel
-def common_flow(edge, spool: float, load: float):
+def common_flow(edge: MeteringEdge, spool: float, load: float) -> Any:
     """Flow (m^3/s) through both edges at a load p_A - p_B (Pa), and its slopes: eq. 11 with the sign(y) it lacks."""
     opening = edge.constant * edge.stroke * spool
     side = 1.0 if spool >= 0.0 else -1.0
@@ -65,7 +66,7 @@ def common_flow(edge, spool: float, load: float):
 
 
 @kernel
-def supply_power(edge, spool: float, pressure_a: float, pressure_b: float) -> float:
+def supply_power(edge: MeteringEdge, spool: float, pressure_a: float, pressure_b: float) -> float:
     """Power (W) that the valve takes from its supply, against the return pressure."""
     pressure = pressure_a if spool >= 0.0 else pressure_b
     root = rounded_root(edge.supply_pressure - pressure, edge.laminar_pressure)
@@ -75,13 +76,13 @@ def supply_power(edge, spool: float, pressure_a: float, pressure_b: float) -> fl
 
 
 @kernel
-def mean_supply_power(edge, spool: float) -> float:
+def mean_supply_power(edge: MeteringEdge, spool: float) -> float:
     """The same where the chamber pressures are no states: at no load, both halfway between supply and return."""
     middle = 0.5 * (edge.supply_pressure + edge.return_pressure)
     return supply_power(edge, spool, middle, middle)
 
 
-def largest_stroke_rate(edge: MeteringEdge, cylinder) -> float:
+def largest_stroke_rate(edge: MeteringEdge, cylinder: Any) -> float:
     """Full strokes a second (1/s) of an unloaded ControlCylinder at a fully open valve."""
     drop = 0.5 * (edge.supply_pressure - edge.return_pressure)
     return edge.constant * edge.stroke * math.sqrt(drop) / (cylinder.area * cylinder.travel)

@@ -66,7 +66,7 @@ def viscosity_ratio(oil: Oil) -> float:
 
 
 @kernel
-def compressibility(fluid, pressure: float) -> float:
+def compressibility(fluid: Fluid, pressure: float) -> float:
     """Relative change of volume with pressure (1/Pa) at an absolute pressure (Pa, gt 0): of the liquid, and of its air
     by Boyle's law. It grows without bound towards zero, so that no pressure falls to it.
     """
@@ -74,13 +74,13 @@ def compressibility(fluid, pressure: float) -> float:
 
 
 @kernel
-def compressibility_slope(fluid, pressure: float) -> float:
+def compressibility_slope(fluid: Fluid, pressure: float) -> float:
     """Derivative of `compressibility` by the pressure (1/Pa^2)."""
     return -2.0 * fluid.air * REFERENCE_PRESSURE / (pressure * pressure * pressure)
 
 
 @kernel
-def energy_density(fluid, pressure: float, tank: float) -> float:
+def energy_density(fluid: Fluid, pressure: float, tank: float) -> float:
     """Energy (J/m^3) stored in compression from `tank` to `pressure` (Pa, absolute): the integral of (q - tank) times
     `compressibility`, what is left of the work done on the oil once it is back in the tank.
     """

@@ -1,7 +1,7 @@
 """Pipe: the oil in a line has a volume, a mass and a friction (paper eqs. 30 and 33 to 39)."""
 
 import math
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import AfterValidator
 
@@ -32,31 +32,31 @@ class Pipe(Parameters):
 
 
 @kernel
-def area(pipe) -> float:
+def area(pipe: Pipe) -> float:
     """Inner cross section (m^2): A_L."""
     return 0.25 * math.pi * pipe.diameter * pipe.diameter
 
 
 @kernel
-def volume(pipe) -> float:
+def volume(pipe: Pipe) -> float:
     """Volume of oil (m^3) in the whole line: V_L (eq. 30)."""
     return pipe.length * area(pipe)
 
 
 @kernel
-def inertance(pipe, fluid) -> float:
+def inertance(pipe: Pipe, fluid: Any) -> float:
     """Pressure difference that a change of flow takes in the whole line (Pa s^2/m^3, eq. 35)."""
     return fluid.density * pipe.length / area(pipe)
 
 
 @kernel
-def reynolds(pipe, fluid, flow: float) -> float:
+def reynolds(pipe: Pipe, fluid: Any, flow: float) -> float:
     """Reynolds number of a flow (m^3/s) in either direction (eq. 37)."""
     return abs(flow) * pipe.diameter / (area(pipe) * fluid.viscosity)
 
 
 @kernel
-def pressure_drop(pipe, fluid, flow: float) -> float:
+def pressure_drop(pipe: Pipe, fluid: Any, flow: float) -> float:
     """Pressure (Pa) that friction takes from a flow (m^3/s) in the whole line, with the sign of the flow.
 
     Eq. 36 with the resistance coefficient 64/Re of laminar flow (eqs. 38, 39), and with that of Blasius where it is
@@ -68,7 +68,7 @@ def pressure_drop(pipe, fluid, flow: float) -> float:
 
 
 @kernel
-def _resistance(number):
+def _resistance(number: float) -> float:
     # Re^2 lambda/2, which is the pressure drop over rho l nu^2/d^3
     if number <= LAMINAR:
         return 32.0 * number
@@ -79,5 +79,5 @@ def _resistance(number):
 
 
 @kernel
-def _turbulent(number):
+def _turbulent(number: float) -> float:
     return 0.5 * BLASIUS * number * number / math.sqrt(math.sqrt(number))

@@ -1,6 +1,7 @@
 """Variable displacement pump: flow, flow loss and torque loss (paper eqs. 21 to 24, 41)."""
 
 import math
+from typing import Any
 
 from pydantic import model_validator
 
@@ -32,13 +33,13 @@ class Pump(Parameters):
 
 
 @kernel
-def ideal_flow(pump, stroke: float) -> float:
+def ideal_flow(pump: Any, stroke: float) -> float:
     """Flow (m^3/s) without losses; the mechanical stop limits the stroke to +-1 (eq. 24)."""
     return saturate(stroke, 1.0) * pump.displacement * pump.speed
 
 
 @kernel
-def flow_loss(pump, stroke: float, pressure: float) -> float:
+def flow_loss(pump: Any, stroke: float, pressure: float) -> float:
     """Flow (m^3/s) lost from the high to the low side, signed like the pressure: eqs. 41 and 21."""
     linear = pump.leakage * pressure
     if pump.flow_loss.norm > 0.0:
@@ -47,13 +48,13 @@ def flow_loss(pump, stroke: float, pressure: float) -> float:
 
 
 @kernel
-def torque_loss(pump, stroke: float, pressure: float) -> float:
+def torque_loss(pump: Any, stroke: float, pressure: float) -> float:
     """Torque loss (Nm), which the shaft pays in all four quadrants (eq. 22)."""
     return even_loss(pump.torque_loss, saturate(stroke, 1.0), pump.speed, pressure)
 
 
 @kernel
-def extrapolation(pump, stroke: float, pressure: float) -> float:
+def extrapolation(pump: Any, stroke: float, pressure: float) -> float:
     """How far the pump runs outside the range of its losses, as a share of the range's end; 0 inside."""
     stroke = saturate(stroke, 1.0)
     outside = beyond(pump.torque_loss, stroke, pump.speed, pressure)

@@ -12,7 +12,7 @@ class ReliefValve(Parameters):
 
 
 @kernel
-def relief_flow(valve, pressure: float) -> float:
+def relief_flow(valve: ReliefValve, pressure: float) -> float:
     """Flow (m^3/s) from the high to the low side, with the sign of `pressure` (Pa)."""
     if pressure > valve.pressure:
         return valve.conductance * (pressure - valve.pressure)
@@ -22,6 +22,6 @@ def relief_flow(valve, pressure: float) -> float:
 
 
 @kernel
-def one_way_relief(valve, excess: float) -> float:
+def one_way_relief(valve: ReliefValve, excess: float) -> float:
     """Flow (m^3/s, never negative) through one valve of the pair, `excess` (Pa) being the pressure over its outlet."""
     return valve.conductance * max(excess - valve.pressure, 0.0)

@@ -14,7 +14,7 @@ class ServoValve(Parameters):
 
 
 @kernel
-def spool_acceleration(valve, stroke: float, rate: float, command: float) -> float:
+def spool_acceleration(valve: ServoValve, stroke: float, rate: float, command: float) -> float:
     """Second derivative of the spool stroke (1/s^2) for a commanded stroke (eq. 18, spool speed saturated)."""
     lag = 2.0 * valve.damping * valve.frequency
     return lag * (saturate(valve.frequency / (2.0 * valve.damping) * (command - stroke), valve.max_rate) - rate)

@@ -19,12 +19,12 @@ class SwashPlate(Parameters):
 
 
 @kernel
-def stroke_rate(plate, spool: float) -> float:
+def stroke_rate(plate: SwashPlate, spool: float) -> float:
     """Rate of the pump stroke (1/s), a fraction of full stroke (eq. 20 without the valve's lag)."""
     return plate.max_rate * spool
 
 
 @kernel
-def held(plate, stroke: float) -> float:
+def held(plate: SwashPlate, stroke: float) -> float:
     """The stroke at which the plate stands after a substep that would have led it to `stroke`."""
     return saturate(stroke, 1.0) if plate.stop == ON_STROKE else stroke

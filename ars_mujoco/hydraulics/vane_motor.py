@@ -22,7 +22,7 @@ class VaneMotor(Parameters):
 
 
 @kernel
-def friction_torque(motor, rate: float) -> float:
+def friction_torque(motor: VaneMotor, rate: float) -> float:
     """Friction torque (Nm) at `rate` (rad/s): eq. 28 with sign() rounded to tanh() so that standstill is solvable."""
     dry = motor.coulomb_friction
     if motor.static_friction > 0.0:
@@ -31,7 +31,7 @@ def friction_torque(motor, rate: float) -> float:
 
 
 @kernel
-def stop_torque(motor, angle: float) -> float:
+def stop_torque(motor: VaneMotor, angle: float) -> float:
     """Torque (Nm) of the mechanical stop against an angle beyond it; elastic, so it stores and gives back."""
     if angle > motor.stop_angle:
         return motor.stop_stiffness * (angle - motor.stop_angle)

@@ -5,7 +5,9 @@ No fastmath: compiled and interpreted runs must agree to the last bits, and NaN 
 which hold all they call, are cached on disk (`entry`, `NativeCallback`), under a digest of their program.
 """
 
+from collections.abc import Callable
 from functools import cached_property
+from typing import Any, TypeVar, cast
 
 import numba
 from numba.core.ccallback import CFunc
@@ -16,17 +18,20 @@ from ars_mujoco.kernels.cache import EntryCache
 
 interpreted = bool(numba.config.DISABLE_JIT)  # numba reads the environment once, at its import
 
+# to a type checker a kernel is the function that it was made of
+Function = TypeVar("Function", bound=Callable[..., Any])
+
 JIT_OPTIONS = {"error_model": "numpy", "fastmath": False, "nogil": True}
 
 
-def kernel(function):
+def kernel(function: Function) -> Function:
     """Compile `function` to native code without fastmath; division by zero gives inf or NaN, not an exception."""
-    return numba.njit(**JIT_OPTIONS)(function)
+    return cast(Function, numba.njit(**JIT_OPTIONS)(function))
 
 
-def inlined(function):
+def inlined(function: Function) -> Function:
     """Like `kernel`, always put in place where it is called: for what a loop over substeps must see through."""
-    return numba.njit(forceinline=True, **JIT_OPTIONS)(function)
+    return cast(Function, numba.njit(forceinline=True, **JIT_OPTIONS)(function))
 
 
 def specialized(plain):

@@ -4,12 +4,14 @@ The functions take tuples and records of any length. Interpreted they are what t
 the very types, one expression an item, so that no loop and no index is left in the machine code.
 """
 
+from typing import Any
+
 from numba import types
 
 from ars_mujoco.kernels.kernel import specialized
 
 
-def along(state, rates, h):
+def along(state: Any, rates: Any, h: float) -> Any:
     """Every number of the tuple `state`, `h` along its rate."""
     return tuple([x + h * rate for x, rate in zip(state, rates, strict=True)])
 
@@ -25,7 +27,7 @@ def mean(k1, k2, k3, k4):
     return tuple([(a + 2.0 * (b + c) + d) * (1.0 / 6.0) for a, b, c, d in zip(k1, k2, k3, k4, strict=True)])
 
 
-def zeros(like):
+def zeros(like: Any) -> Any:
     """As many zeros as the tuple `like` has numbers."""
     return tuple([0.0 for _ in like])
 

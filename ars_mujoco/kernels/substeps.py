@@ -49,7 +49,7 @@ def differences(function: Callable[[np.ndarray], Sequence[float]], at: np.ndarra
 
 
 def derivatives(rates: Callable) -> Callable[[Any, Any, Any], tuple[float, ...]]:
-    """A function (p, demand, record) of the derivatives of `rates`, the state given as a record; compiled and cached."""
+    """A function (p, demand, record) of the derivatives of `rates`, the state given as a record; cached."""
 
     @entry
     def derivatives_at(p, demand, state):

@@ -39,7 +39,7 @@ Running = namedtuple("Running", "torque drawn copper inverter")
 
 
 @kernel
-def wish(drive, torque: float, speed: float, voltage: float, phases: float):
+def wish(drive: ElectricDrive, torque: float, speed: float, voltage: float, phases: float) -> Wish:
     """The Wish for a torque (Nm), within what current and voltage (V) allow at a speed (rad/s); none where the phases
     are not driven.
     """
@@ -63,7 +63,7 @@ def power_share(budget: float, front: float, rear: float) -> float:
 
 
 @kernel
-def granted(drive, wished, share: float, speed: float, voltage: float) -> float:
+def granted(drive: ElectricDrive, wished: Wish, share: float, speed: float, voltage: float) -> float:
     """The torque current (A) of a drive that gets but a share of the power it wishes for."""
     if share == 1.0 or wished.power <= 0.0:
         return wished.current
@@ -75,7 +75,7 @@ def granted(drive, wished, share: float, speed: float, voltage: float) -> float:
 
 
 @kernel
-def running(drive, current: float, speed: float, voltage: float, phases: float):
+def running(drive: ElectricDrive, current: float, speed: float, voltage: float, phases: float) -> Running:
     """The Running of a drive at a torque current (A); `phases` is one of DRIVEN, OPEN, SHORTED."""
     machine = drive.machine
     if phases == DRIVEN:
@@ -90,6 +90,6 @@ def running(drive, current: float, speed: float, voltage: float, phases: float):
 
 
 @kernel
-def current_rate(drive, current: float, wanted: float) -> float:
+def current_rate(drive: ElectricDrive, current: float, wanted: float) -> float:
     """Rate (A/s) of the torque current towards the one wanted."""
     return drive.current_bandwidth * (wanted - current)

@@ -5,11 +5,12 @@
 
 Both limits are circles in the plane of the currents: |i| <= I about zero, and |u| <= V about the currents at which the
 machine would idle shorted. The torque current lies within both; the field current i_d is the least that the voltage
-asks for, so that it is zero up to the corner speed and weakens the field beyond. Currents and voltages are amplitudes of
-a phase. Magnetic energy is not counted: at most 0.6 J in a machine of a roll stabilizer.
+asks for, so that it is zero up to the corner speed and weakens the field beyond. Currents and voltages are amplitudes
+of a phase. Magnetic energy is not counted: at most 0.6 J in a machine of a roll stabilizer.
 """
 
 import math
+from typing import Any
 
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.schema.parameters import Parameters, number, quantity
@@ -34,13 +35,13 @@ class ElectricMachine(Parameters):
 
 
 @kernel
-def torque_constant(machine) -> float:
+def torque_constant(machine: ElectricMachine) -> float:
     """Torque over torque current (Nm/A): 1.5 p psi."""
     return 1.5 * machine.pole_pairs * machine.flux
 
 
 @kernel
-def torque_currents(machine, speed: float, supply: float):
+def torque_currents(machine: ElectricMachine, speed: float, supply: float) -> Any:
     """(least, most) torque current (A) at a speed (rad/s) and the supply's voltage (V), within both circles."""
     d, q, radius = _voltage_circle(machine, speed, supply)
     limit = machine.current_limit
@@ -48,7 +49,7 @@ def torque_currents(machine, speed: float, supply: float):
 
 
 @kernel
-def field_current(machine, torque_current: float, speed: float, supply: float) -> float:
+def field_current(machine: ElectricMachine, torque_current: float, speed: float, supply: float) -> float:
     """The field current (A) of least size, zero or less, at which the voltage suffices for a torque current (A)."""
     d, q, radius = _voltage_circle(machine, speed, supply)
     off = torque_current - q
@@ -56,20 +57,20 @@ def field_current(machine, torque_current: float, speed: float, supply: float) -
 
 
 @kernel
-def copper_loss(machine, torque_current: float, field: float) -> float:
+def copper_loss(machine: ElectricMachine, torque_current: float, field: float) -> float:
     """Heat of the windings (W)."""
     return 1.5 * machine.resistance * (torque_current * torque_current + field * field)
 
 
 @kernel
-def drag(machine, speed: float) -> float:
+def drag(machine: ElectricMachine, speed: float) -> float:
     """Torque (Nm) of iron, windage and bearings against a speed (rad/s)."""
     dry = machine.hysteresis + machine.friction
     return machine.iron * speed + dry * math.tanh(speed / machine.sign_speed)
 
 
 @kernel
-def shorted_torque(machine, speed: float) -> float:
+def shorted_torque(machine: ElectricMachine, speed: float) -> float:
     """Torque (Nm) of a machine with its phases joined: it brakes, and all of the work heats its windings."""
     p, R = machine.pole_pairs, machine.resistance
     electrical = p * speed
@@ -78,7 +79,7 @@ def shorted_torque(machine, speed: float) -> float:
 
 
 @kernel
-def _voltage_circle(machine, speed, supply):
+def _voltage_circle(machine: ElectricMachine, speed: float, supply: float) -> Any:
     # centre (d, q) and radius (A) of the currents that the voltage allows
     electrical, R = machine.pole_pairs * speed, machine.resistance
     reactance = electrical * machine.inductance
@@ -88,7 +89,7 @@ def _voltage_circle(machine, speed, supply):
 
 
 @kernel
-def current_within(machine, speed: float, other: float, power: float) -> float:
+def current_within(machine: ElectricMachine, speed: float, other: float, power: float) -> float:
     """The torque current (A, its size) at which a machine draws a power (W), besides what it takes in proportion to the
     current elsewhere, `other` (W/A); `speed` (rad/s) is along its torque.
     """
@@ -97,9 +98,9 @@ def current_within(machine, speed: float, other: float, power: float) -> float:
 
 
 @kernel
-def _end(machine, d, q, radius, limit):
-    # the torque current of the sign of `limit` that is farthest out: on the current's circle, on the voltage's, or where
-    # both meet; there the field current may reach its own limit first
+def _end(machine: ElectricMachine, d: float, q: float, radius: float, limit: float) -> float:
+    # the torque current of the sign of `limit` that is farthest out: on the current's circle, on the voltage's, or
+    # where both meet; there the field current may reach its own limit first
     if d * d + (limit - q) * (limit - q) <= radius * radius:
         return limit
     side, least = math.copysign(1.0, limit), -machine.field_current_limit
@@ -109,7 +110,8 @@ def _end(machine, d, q, radius, limit):
     square = d * d + q * q
     along = 0.5 * (limit * limit - radius * radius + square) / square
     across = math.sqrt(max(limit * limit / square - along * along, 0.0))
-    meeting = along * side * q + across * abs(d)
+    within = abs(limit) > radius + math.sqrt(square)  # the voltage's circle: they do not meet
+    meeting = math.inf if within else along * side * q + across * abs(d)
     room = radius * radius - (least - d) * (least - d)
     if room < 0.0 and d < least:  # so fast that no field current suffices: the machine can only be let go
         return 0.0

@@ -8,6 +8,7 @@ converter gives and no more: all are then scaled by the same factor.
 """
 
 import math
+from typing import Any
 
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.saturation import saturate
@@ -32,7 +33,7 @@ class ElectricSupply(Parameters):
 
 
 @kernel
-def budget(supply, store: float) -> float:
+def budget(supply: ElectricSupply, store: float) -> float:
     """Power (W) that all loads together may take at a voltage (V) of the store: what is left behind the line."""
     share = saturate((store - supply.least_voltage) / FADE, 1.0)
     current = (supply.converter_power - supply.controller_power + supply.store_power * max(share, 0.0)) / store
@@ -40,14 +41,14 @@ def budget(supply, store: float) -> float:
 
 
 @kernel
-def terminal_voltage(supply, store: float, load: float) -> float:
+def terminal_voltage(supply: ElectricSupply, store: float, load: float) -> float:
     """Voltage (V) at the loads that take a power (W) through the line: of two solutions the one near the store's."""
     resistance = supply.line_resistance
     return 0.5 * (store + math.sqrt(max(store * store - 4.0 * resistance * load, 0.0)))
 
 
 @kernel
-def supply_rates(supply, store: float, converter: float, load: float):
+def supply_rates(supply: ElectricSupply, store: float, converter: float, load: float) -> Any:
     """Rates of the store's voltage (V/s) and of the converter's power (W/s) under a load (W), and the powers (W) drawn
     from the source, lost in converter, line and controllers, and delivered to the loads.
     """
@@ -66,6 +67,6 @@ def supply_rates(supply, store: float, converter: float, load: float):
 
 
 @kernel
-def store_energy(supply, store: float) -> float:
+def store_energy(supply: ElectricSupply, store: float) -> float:
     """Energy (J) in the store, over what it has at the nominal voltage."""
     return 0.5 * supply.capacitance * (store * store - supply.voltage * supply.voltage)

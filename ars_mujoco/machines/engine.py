@@ -4,7 +4,7 @@ A shift and a clutch take no time: the engine turns as fast as the wheels ask in
 the clutch slips, nor above its greatest speed.
 """
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import ConfigDict, ValidationInfo, field_validator
@@ -40,7 +40,7 @@ class Engine(Parameters):
 
     @field_validator("max_speed")
     @classmethod
-    def _above_idle(cls, max_speed, info: ValidationInfo):
+    def _above_idle(cls, max_speed: float, info: ValidationInfo) -> float:
         idle_speed = info.data.get("idle_speed", 0.0)
         if max_speed <= idle_speed:
             raise ValueError(f"max_speed must be above idle_speed, which is {idle_speed:.4g} rad/s")
@@ -48,7 +48,7 @@ class Engine(Parameters):
 
     @field_validator("downshift_speed", "upshift_speed")
     @classmethod
-    def _is_reached(cls, speed, info: ValidationInfo):
+    def _is_reached(cls, speed: Any, info: ValidationInfo) -> Any:
         idle, most = info.data.get("idle_speed", 0.0), info.data.get("max_speed", speed)
         if not idle <= speed <= most:
             raise ValueError(
@@ -58,7 +58,7 @@ class Engine(Parameters):
 
     @field_validator("ratios")
     @classmethod
-    def _shift_without_hunting(cls, ratios, info: ValidationInfo):
+    def _shift_without_hunting(cls, ratios: Any, info: ValidationInfo) -> Any:
         if not 1 <= len(ratios) <= GEARS:
             raise ValueError(f"ratios takes 1 to {GEARS} gears, not {len(ratios)}")
         up, down = info.data.get("upshift_speed"), info.data.get("downshift_speed")
@@ -74,7 +74,7 @@ class Engine(Parameters):
 
 
 @kernel
-def gear(engine, gearbox, last: float, road_speed: float) -> float:
+def gear(engine: Engine, gearbox: Any, last: float, road_speed: float) -> float:
     """Gear, 0 the first, that follows `last` at a road speed (m/s); between the two shift speeds it stays."""
     shaft, chosen = _propeller_shaft(engine, road_speed), int(last)
     while chosen < int(gearbox.count) - 1 and gearbox.ratios[chosen] * shaft > engine.upshift_speed:
@@ -85,12 +85,12 @@ def gear(engine, gearbox, last: float, road_speed: float) -> float:
 
 
 @kernel
-def engine_speed(engine, gearbox, chosen: float, road_speed: float) -> float:
+def engine_speed(engine: Engine, gearbox: Any, chosen: float, road_speed: float) -> float:
     """Engine speed (rad/s) in a gear at a road speed (m/s): idle where the car stands."""
     coupled = gearbox.ratios[int(chosen)] * _propeller_shaft(engine, road_speed)
     return min(max(coupled, engine.idle_speed), engine.max_speed)
 
 
 @kernel
-def _propeller_shaft(engine, road_speed):
+def _propeller_shaft(engine: Engine, road_speed: float) -> float:
     return engine.final_drive * abs(road_speed) / engine.rolling_radius

@@ -12,6 +12,6 @@ class Inverter(Parameters):
 
 
 @kernel
-def inverter_loss(inverter, supply: float, current: float) -> float:
+def inverter_loss(inverter: Inverter, supply: float, current: float) -> float:
     """Loss (W) at a supply voltage (V) and an amplitude of the phases' current (A)."""
     return inverter.standby_power + inverter.loss_share * 0.5 * supply * current

@@ -1,8 +1,10 @@
 """Channels of an electric supply: its state, its energies and what it records, for every system that has one."""
 
+from typing import Any
+
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.records import share
-from ars_mujoco.machines.electric_supply import store_energy, terminal_voltage
+from ars_mujoco.machines.electric_supply import ElectricSupply, store_energy, terminal_voltage
 from ars_mujoco.schema.channels import channel, delivered, drawn, lost, stored
 from ars_mujoco.schema.events import Condition
 from ars_mujoco.schema.parameters import Parameters
@@ -52,7 +54,9 @@ SHED = Condition("supply.share", "below", 0.999, "WARN", "the supply sheds load:
 
 
 @kernel
-def report_supply(supply, now, energy, out, load: float, granted: float) -> None:
+def report_supply(
+    supply: ElectricSupply, now: Any, energy: SupplyEnergy, out: Any, load: float, granted: float
+) -> None:
     """What the supply records under a load (W), where the drives get the share `granted` of what they wish for."""
     out.voltage, out.power = terminal_voltage(supply, now.store, load), now.converter
     out.load, out.share = load, granted
@@ -60,7 +64,7 @@ def report_supply(supply, now, energy, out, load: float, granted: float) -> None
     out.energy.store = store_energy(supply, now.store)
 
 
-def rest_supply(supply, state, standby: float) -> None:
+def rest_supply(supply: ElectricSupply, state: Any, standby: float) -> None:
     """Write the supply's state at rest: its converter feeds what is always on, drives with a `standby` (W) among it."""
     voltage = terminal_voltage(supply, supply.voltage, standby)
     line = supply.line_resistance * (standby / voltage) ** 2

@@ -210,7 +210,7 @@ class Cycle(Parameters):
 
 
 def with_inputs(inputs: Mapping[str, Any]) -> type[Cycle]:
-    """The Cycle of an actuator that takes `inputs`, by name with their unit, rest, least and most value: each is Knots."""
+    """The Cycle of an actuator that takes `inputs`: by name their unit, rest, least and most value; each is Knots."""
     fields: dict[str, Any] = {}
     for name, (unit, rest, least, most) in inputs.items():
         knots = KnotsOf(unit, ge=least, le=most)

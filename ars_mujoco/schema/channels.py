@@ -94,7 +94,7 @@ def channels(block: type[Parameters], prefix: str = "") -> list[Channel]:
         else:
             unit = next(item.symbol for item in field.metadata if isinstance(item, Unit))
             role = next((item.name for item in field.metadata if isinstance(item, Role)), None)
-            found.append(Channel(prefix + name, unit, field.description, role))
+            found.append(Channel(prefix + name, unit, field.description or "", role))
     return found
 
 

@@ -17,6 +17,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from ars_mujoco.schema import library
 from ars_mujoco.schema.errors import InputError
+from ars_mujoco.schema.parameters import Parameters
 from ars_mujoco.schema.suggestion import did_you_mean
 from ars_mujoco.schema.units import Unit, allowed
 
@@ -48,7 +49,9 @@ class Input:
 class Written(str):
     """A text as it stands in a file, and the `folder` at which a relative path in it starts."""
 
-    def __new__(cls, text: str, folder: Path):
+    folder: Path
+
+    def __new__(cls, text: str, folder: Path) -> "Written":
         written = super().__new__(cls, text)
         written.folder = folder
         return written
@@ -133,12 +136,12 @@ class Document:
 
     def validate(self, schema: Any) -> Any:
         """The tree as `schema`. Raises InputError with every problem, in the order of the lines."""
-        schemas: dict[int, type] = {}
+        schemas: dict[int, type[Parameters]] = {}
         value = None
         try:
             value = TypeAdapter(schema).validate_python(self.tree, context=schemas)
         except ValidationError as error:
-            self._problems += [self._problem(each, schemas) for each in error.errors(include_url=False)]
+            self._problems += [self._problem(dict(each), schemas) for each in error.errors(include_url=False)]
         if self._problems:
             lines_first = sorted(self._problems, key=lambda problem: (isinstance(problem[0], str), problem[0]))
             raise InputError(*(f"{self._place(origin)}: {message}" for origin, message in lines_first))
@@ -178,7 +181,7 @@ class Document:
     def _place(self, origin: int | str) -> str:
         return origin if isinstance(origin, str) else f"{self.name}:{origin}"
 
-    def _problem(self, error: dict[str, Any], schemas: dict[int, type]) -> tuple[int | str, str]:
+    def _problem(self, error: dict[str, Any], schemas: dict[int, type[Parameters]]) -> tuple[int | str, str]:
         """One of pydantic's errors as an origin and a message."""
         keys, block, value = self._follow(error)
         origin = next(self._origins[keys[:n]] for n in range(len(keys), -1, -1) if keys[:n] in self._origins)
@@ -187,8 +190,8 @@ class Document:
     def _follow(self, error: dict[str, Any]) -> tuple[Keys, Any, Any]:
         """The keys of an error, the block they end in and the value there, without pydantic's labels of unions."""
         *way, last = error["loc"] or [""]
-        keys, block = [], self.tree
-        value = self.tree
+        keys: list[str | int] = []
+        block = value = self.tree
         for key in (*way, last):
             here = isinstance(value, dict) and key in value or isinstance(value, list) and key in range(len(value))
             if here:
@@ -201,7 +204,7 @@ class Document:
         return tuple(keys), block, value
 
 
-def _message(error: dict[str, Any], keys: Keys, value: Any, schema: type | None) -> str:
+def _message(error: dict[str, Any], keys: Keys, value: Any, schema: type[Parameters] | None) -> str:
     """What is wrong with the value at `keys`, and what is allowed there; `schema` read the block around it."""
     kind, context = error["type"], error.get("ctx", {})
     names = list(schema.model_fields) if schema else []
@@ -225,15 +228,15 @@ def _message(error: dict[str, Any], keys: Keys, value: Any, schema: type | None)
             return f"takes at most {context['max_length']} values"
         case "value_error":
             return written + str(context["error"])
-    return written + NEEDS.get(kind, error["msg"][:1].lower() + error["msg"][1:])
+    return written + str(NEEDS.get(kind, error["msg"][:1].lower() + error["msg"][1:]))
 
 
 def _listed(names: Iterable[str]) -> str:
     return f"; allowed: {', '.join(names)}"
 
 
-def _listed_units(schema: type | None, key: str | int) -> str:
-    field = schema.model_fields.get(key) if schema else None
+def _listed_units(schema: type[Parameters] | None, key: str | int) -> str:
+    field = schema.model_fields.get(str(key)) if schema else None
     units = [allowed(item.symbol) for item in field.metadata if isinstance(item, Unit)] if field else []
     return f"; a value in {units[0]}" if units else ""
 

@@ -16,6 +16,6 @@ class InputError(ArsError):
 class SimulationError(ArsError):
     """A run that cannot go on: `time` (s), `channel` (its name) and `samples` (the last ones, by channel)."""
 
-    def __init__(self, message: str, time: float, channel: str, samples: dict | None = None):
+    def __init__(self, message: str, time: float, channel: str, samples: dict[str, list[float]] | None = None):
         self.time, self.channel, self.samples = time, channel, samples or {}
         super().__init__(message)

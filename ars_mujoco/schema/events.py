@@ -24,7 +24,7 @@ class Condition:
     text: str
     of_size: bool = False
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name, known in (("relation", RELATIONS), ("level", LEVELS)):
             if (value := getattr(self, name)) not in known:
                 hint = did_you_mean(value, known)
@@ -32,4 +32,5 @@ class Condition:
 
     def holds(self, values: np.ndarray) -> np.ndarray:
         """Where the channel's `values` (n,) keep the condition, as booleans (n,)."""
-        return RELATIONS[self.relation](np.abs(values) if self.of_size else values, self.bound)
+        held: np.ndarray = RELATIONS[self.relation](np.abs(values) if self.of_size else values, self.bound)
+        return held

@@ -26,7 +26,9 @@ def quantity(unit: str, *, default: Any = PydanticUndefined, validate_default: b
 
 def number(*, default: Any = PydanticUndefined, **limits: float) -> Any:
     """A dimensionless field: a bare number in the file, or a percentage."""
-    return quantity("1", default=default, **limits)
+    field = Field(default)
+    field.metadata.append(Unit("1", **limits))
+    return field
 
 
 def choice(*names: str, default: Any = PydanticUndefined) -> Any:

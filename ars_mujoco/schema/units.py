@@ -151,10 +151,10 @@ def allowed(unit: str) -> str:
 
 
 @cache
-def registry():
+def registry() -> Any:
     """Pint's registry with the units above and no others; made on first use, because it takes a quarter second."""
     import pint
 
-    ureg = pint.UnitRegistry(None)
+    ureg: Any = pint.UnitRegistry(None)
     ureg.load_definitions(DEFINITIONS.strip().splitlines())
     return ureg

@@ -21,7 +21,7 @@ LAST_SAMPLES = 5  # that a failed run's error shows
 
 @dataclass(frozen=True)
 class Simulation:
-    """What `simulate` runs: a rig with its system, and a model that carries the initial world; keyframe 0 is the start."""
+    """What `simulate` runs: a rig with its system, a model that carries the initial world; it starts at keyframe 0."""
 
     rig: Rig
     model: mujoco.MjModel

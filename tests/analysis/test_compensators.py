@@ -31,7 +31,7 @@ from ars_mujoco.analysis.margins import margins
 from ars_mujoco.studies.inputs import read_inputs
 
 ROBOT = loop_of(read_inputs("robot_step"))
-OWN = read_inputs("robot_step").controller.value
+OWN = read_inputs("robot_step")
 SMOOTH = "actuator.front.motor.coulomb_friction=0 Nm"
 OFF = "actuator.control.pressure_feedback.gain=0 1/bar"
 
@@ -149,8 +149,9 @@ def test_the_found_loop_keeps_6_db_and_45_deg_and_no_more(loop, timing):
 
 
 def test_the_shipped_controller_of_the_robot_s_joint_keeps_the_margins():
-    own, timing = OWN.pressure_feedback, OWN.unit.sample_time
-    kept = kept_margins(behind_unit(ROBOT, timing), OWN.loop.gain, pressure_feedback(own.gain, own.corner, timing))
+    loop, timing = OWN.actuator.value.control, OWN.controller.value.unit.sample_time
+    own = loop.pressure_feedback
+    kept = kept_margins(behind_unit(ROBOT, timing), loop.loop.gain, pressure_feedback(own.gain, own.corner, timing))
     assert kept["is_stable"]
     assert kept["gain_margin"] > 6.0
     assert kept["phase_margin"] > 45.0

@@ -93,6 +93,16 @@ def test_a_model_of_another_rig_is_refused(sedan):
         pass
 
 
+@pytest.mark.parametrize("actuator", ["passive", "pump_controlled_full"])
+def test_a_model_of_the_same_rig_with_another_system_is_refused(sedan, actuator):
+    other = shipped.simulation(S_CURVE, actuator)
+    with (
+        pytest.raises(ArsError, match="not built for the rig 'sedan'"),
+        installed(other.rig, sedan.model, sedan.start()),
+    ):
+        pass
+
+
 def test_a_model_that_has_room_for_the_world_but_does_not_carry_it_is_refused():
     spec, bench = mujoco.MjSpec(), shipped.simulation(BENCH).rig
     spec.nuserdata = bench.SIZE

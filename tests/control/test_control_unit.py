@@ -8,7 +8,20 @@ from records import filled
 
 from ars_mujoco.bridge.callback import installed
 from ars_mujoco.bridge.world import view
-from ars_mujoco.control.control_unit import DELAY_LINE, SLOTS, ControlUnit, check_timing, delayed, samples_now
+from ars_mujoco.control.control_unit import (
+    COMMAND_LINE,
+    DELAY_LINE,
+    SLOTS,
+    BarCommand,
+    ControlUnit,
+    arrive_late,
+    arrive_now,
+    by_angle,
+    by_torque,
+    check_timing,
+    delayed,
+    samples_now,
+)
 from ars_mujoco.schema.errors import InputError
 
 STEP = 1e-3
@@ -26,6 +39,61 @@ def test_an_output_leaves_the_delay_line_exactly_its_delay_later(steps):
     assert np.array_equal(left[steps:, 0], pushed[: 200 - steps])
     assert np.array_equal(left[:, 1], -2.0 * left[:, 0])
     assert not np.any(left[:steps])
+
+
+def arrived(steps, asked):
+    """What arrives of BarCommands (front, rear), given one pair a step to a unit of that delay."""
+    record, lines, found = filled(unit(delay=f"{steps} ms")), np.zeros(2, COMMAND_LINE).view(np.recarray), []
+    for front, rear in asked:
+        lines.values[1] = np.nan  # what the step after holds counts for nothing
+        found.append(arrive_late(record, lines[0], lines[1], front, rear, STEP))
+        lines[0] = lines[1]
+    return found
+
+
+def asked(count):
+    """Pairs of parabolas and torques, of which no two numbers are alike."""
+    pairs = np.arange(1.0, 8 * count + 1).reshape(count, 2, 4)
+    return [tuple(BarCommand(tuple(each[:3]), each[3]) for each in pair) for pair in pairs.tolist()]
+
+
+@pytest.mark.parametrize("steps", [1, 10, SLOTS - 1])
+def test_commands_arrive_exactly_their_delay_later_by_what_they_begin_with(steps):
+    commands = asked(200)
+    found = arrived(steps, commands)
+    for late, command in zip(found[steps:], commands[: 200 - steps], strict=True):
+        assert late == tuple(BarCommand((each.angle[0], 0.0, 0.0), each.torque) for each in command)
+    assert found[:steps] == [(BarCommand((0.0, 0.0, 0.0), 0.0),) * 2] * steps
+
+
+def test_without_a_delay_the_whole_parabola_arrives():
+    commands = asked(5)
+    assert arrived(0, commands) == commands
+
+
+def test_what_runs_in_the_unit_gets_its_commands_at_once_whatever_the_delay():
+    ((front, rear),) = asked(1)
+    assert arrive_now(filled(unit(delay="7 ms")), None, None, front, rear, STEP) == (front, rear)
+
+
+def test_a_commands_delay_is_kept_in_the_step_after_alone():
+    """So that a second call in the same step, as mj_forward makes it, finds the same."""
+    record, (now, later) = filled(unit(delay="3 ms")), np.zeros(2, COMMAND_LINE).view(np.recarray)
+    ((front, rear),) = asked(1)
+    assert arrive_late(record, now, later, front, rear, STEP) == arrive_late(record, now, later, front, rear, STEP)
+    assert now.head == 0.0 and not now.values.any()
+    assert later.head == 1.0
+
+
+@pytest.mark.parametrize("twist", [-0.1, 0.0, 0.03])
+def test_an_angle_and_the_torque_of_the_bars_torsion_are_one_command(twist):
+    stiffness, angle = 5700.0, (0.05, 1.0, 2.0)
+    command = by_angle(stiffness, angle, twist)
+    assert command.angle == angle
+    assert command.torque == pytest.approx(stiffness * (0.05 - twist), rel=1e-15)
+    back = by_torque(stiffness, command.torque, twist)
+    assert back.torque == command.torque
+    assert back.angle == pytest.approx((0.05, 0.0, 0.0), rel=1e-14)
 
 
 def sample_steps(sample_time, count):

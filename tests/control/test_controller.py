@@ -35,6 +35,23 @@ def test_a_shipped_controller_is_read(name):
     read(Controller, name, "controller")
 
 
+@pytest.mark.parametrize("key", ["loop", "pressure_feedback", "compensator"])
+def test_a_controller_of_before_is_told_where_the_pumps_loops_went(key, tmp_path):
+    told = (
+        f"{key}: has moved: an actuator has its own loops; in its file, control.{key}, or --set actuator.control.{key}"
+    )
+    setting = f"{key}.gain=42 1/rad"
+    with pytest.raises(InputError) as error:
+        read(Controller, "cascade", "controller", [override(setting)])
+    assert error.value.problems == (f"--set {setting}: {told}",)
+    mine = tmp_path / "mine.yaml"
+    mine.write_text(f"{library.shipped('controller')['cascade'].read_text()}{key}:\n  gain: 42 1/rad\n")
+    with pytest.raises(InputError) as error:
+        read(Controller, str(mine), "controller")
+    (line,) = error.value.problems
+    assert line.startswith(f"{mine}:") and line.endswith(told)
+
+
 @pytest.mark.parametrize("count", [2, 23])
 def test_a_target_has_2_to_23_knots(count):
     assert len(controller(knots(count)).reference.target) == count

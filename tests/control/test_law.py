@@ -18,6 +18,23 @@ def command(sensors, memory):
     memory[0] += 1.0
     return 0.05, -0.02
 """
+PUSH = """
+GIVES = "torque"
+
+def command(sensors, memory):
+    memory[0] += 1.0
+    return 300.0, -200.0
+"""
+SWAY = """
+import math
+
+GIVES = "torque"
+
+def command(sensors, memory):
+    wave = math.sin(9.0 * sensors.time)
+    return 300.0 * wave, -200.0 * wave
+"""
+FOLLOWERS = ["pump_controlled", "electromechanical"]  # of an angle, of a torque
 NOT_COMPILED = HOLD.replace("memory[0] += 1.0", "memory[0] += float(str(1))")
 
 
@@ -31,8 +48,9 @@ def law(tmp_path):
     return write
 
 
-def drive(path, *settings, cycle="s_curve_120kmh"):
-    return simulate(simulation_of(read_inputs(cycle, controller=str(path), settings=["duration=0.5 s", *settings])))
+def drive(path, *settings, cycle="s_curve_120kmh", actuator=None):
+    inputs = read_inputs(cycle, actuator, str(path), settings=["duration=0.5 s", *settings])
+    return simulate(simulation_of(inputs))
 
 
 def test_its_angles_are_what_the_bars_are_commanded(law):
@@ -59,6 +77,64 @@ def test_it_reads_the_sensors_of_the_running_car(law):
 
 def test_it_also_drives_the_roll_plane(law):
     assert drive(law(HOLD), cycle="roll_plane_step")["front.bar.angle"][-1] > 0.04
+
+
+# ---- torques
+
+PROMPT = ("controller.unit.sample_time=1 ms", "controller.unit.delay=0 s")
+
+
+@pytest.mark.parametrize("actuator", FOLLOWERS)
+def test_a_law_of_torques_is_the_law_of_the_angles_at_which_the_bars_give_them(law, actuator, tmp_path):
+    """phi = psi + M / c, the twists psi being those of the run by torques, whichever of both the system follows."""
+    by_torques = drive(law(SWAY), *PROMPT, cycle="roll_plane_step", actuator=actuator)
+    vehicle = read_inputs("roll_plane_step").vehicle.value
+    torque = np.sin(9.0 * by_torques.time) * np.array([[300.0], [-200.0]])
+    twist = np.array([by_torques["front.bar.twist"], by_torques["rear.bar.twist"]])
+    angles = (twist.T + torque.T / [vehicle.front.stiffness, vehicle.rear.stiffness]).tolist()
+    other = tmp_path / "angles.py"
+    other.write_text(
+        f"import numpy as np\nANGLES = np.array({angles})\n\n"
+        "def command(sensors, memory):\n    i = round(sensors.time / 1e-3)\n    return ANGLES[i, 0], ANGLES[i, 1]\n"
+    )
+    by_angles = drive(other, *PROMPT, cycle="roll_plane_step", actuator=actuator)
+    assert np.abs(by_torques["front.bar.angle"]).max() > 0.03
+    peaks = np.abs(by_torques.values).max(axis=0)
+    assert (np.abs(by_angles.values - by_torques.values) <= 1e-11 * peaks).all()
+
+
+@pytest.mark.parametrize("actuator", FOLLOWERS)
+def test_the_bars_give_the_torques_that_a_law_asks_for(law, actuator):
+    """While the body is pushed to the side, and rolls: the angles that it takes are not known before."""
+    push = "manoeuvre.acceleration={knots: [[0.5 s, 0 m/s^2], [0.6 s, 2 m/s^2]]}"
+    recording = drive(law(PUSH), push, "duration=3 s", cycle="roll_plane_step", actuator=actuator)
+    assert np.ptp(recording["front.bar.twist"]) > 0.1
+    assert recording["front.bar.torque"][-1] == pytest.approx(300.0, rel=0.02)  # the pump's loop is proportional
+    assert recording["rear.bar.torque"][-1] == pytest.approx(-200.0, rel=0.02)
+
+
+@pytest.mark.filterwarnings("ignore:.*does not compile")
+def test_a_law_of_torques_gives_the_same_in_python(law, tmp_path):
+    native = drive(law(PUSH), cycle="roll_plane_step")
+    slow = tmp_path / "slow.py"
+    slow.write_text(PUSH.replace("+= 1.0", "+= float(str(1))"))
+    np.testing.assert_array_equal(drive(slow, cycle="roll_plane_step").values, native.values)
+
+
+def test_a_law_that_says_nothing_gives_angles(law):
+    said = drive(law("GIVES = 'angle'\n" + HOLD), cycle="roll_plane_step")
+    np.testing.assert_array_equal(said.values, drive(law(HOLD), cycle="roll_plane_step").values)
+
+
+@pytest.mark.parametrize("gives", ["'roll'", "3", "None", "['torque']"])
+def test_a_law_that_gives_anything_else_is_refused(law, gives):
+    path = law(f"GIVES = {gives}\n{HOLD}")
+    with pytest.raises(InputError) as error:
+        drive(path)
+    assert str(error.value) == f"{path}: GIVES is {gives}; allowed: angle, torque"
+
+
+# ---- what goes wrong
 
 
 def test_a_function_that_does_not_compile_runs_in_python_with_a_warning_and_gives_the_same(law, tmp_path):

@@ -28,6 +28,7 @@ PARAMETERS = {
 }  # fmt: skip
 MACHINE = filled(ElectricMachine(**PARAMETERS))
 HARDY = filled(ElectricMachine(**PARAMETERS | {"field_current_limit": "75 A"}))  # magnets that bear any field current
+AMPLE = filled(ElectricMachine(**PARAMETERS | {"current_limit": "1 kA"}))  # the voltage alone limits it
 KT = torque_constant(MACHINE)
 speeds, supplies = st.floats(-900.0, 900.0), st.floats(36.0, 52.0)
 
@@ -76,18 +77,19 @@ def test_what_it_gives_keeps_to_both_circles(speed, supply):
             assert voltage(field, current, speed) <= allowed(supply) * (1 + 1e-9)
 
 
+@pytest.mark.parametrize("machine", [MACHINE, AMPLE], ids=["75 A", "1 kA"])
 @pytest.mark.parametrize(
     ("rpm", "supply"), [(1000, 36.0), (2800, 36.0), (3500, 36.0), (2800, 48.0), (3500, 48.0), (4500, 48.0)]
 )
-def test_no_other_currents_give_more_torque(rpm, supply):
-    speed = rpm * RPM
+def test_no_other_currents_give_more_torque(machine, rpm, supply):
+    speed, limit = rpm * RPM, machine.current_limit
     within = [
-        {"type": "ineq", "fun": lambda x: 75.0**2 - x @ x},
+        {"type": "ineq", "fun": lambda x: limit**2 - x @ x},
         {"type": "ineq", "fun": lambda x: allowed(supply) ** 2 - voltage(x[0], x[1], speed) ** 2},
     ]
-    for side, end in zip((-1.0, 1.0), torque_currents(MACHINE, speed, supply), strict=True):
+    for side, end in zip((-1.0, 1.0), torque_currents(machine, speed, supply), strict=True):
         start = (-40.0, 0.5 * end)
-        best = minimize(lambda x, s=side: -s * x[1], start, bounds=[(-60.0, 0.0), (-75.0, 75.0)], constraints=within)
+        best = minimize(lambda x, s=side: -s * x[1], start, bounds=[(-60.0, 0.0), (-limit, limit)], constraints=within)
         assert end == pytest.approx(best.x[1], rel=2e-3, abs=1e-3)
 
 

@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
+from shipped import recording
 
+from ars_mujoco.actuators.registry import system_for
 from ars_mujoco.excitation.knots import value
 from ars_mujoco.manoeuvres.cycle import Cycle
 from ars_mujoco.schema import library
@@ -154,3 +156,60 @@ def test_the_problems_of_all_files_are_told_at_once():
     assert actuator.startswith(f"--set {settings[0]}: front.pmp: unknown key; did you mean 'pump'?")
     assert controller.startswith("no controller 'cascde'; did you mean 'cascade'?")
     assert vehicle == f"--set {settings[1]}: sprung.mass: '-3 kg': must be greater than 0 kg"
+
+
+# ---- what an actuator takes besides its commands
+
+OPEN = "{knots: [[0 s, 1]]}"
+
+
+def inputs_problem(actuator, *settings):
+    with pytest.raises(InputError) as error:
+        read_inputs("s_curve_120kmh", actuator, settings=settings)
+    (line,) = error.value.problems
+    return line
+
+
+def test_a_cycle_of_before_is_told_where_its_valves_went(tmp_path):
+    setting = f"valves.front_bypass={OPEN}"
+    assert problem("bench_fail_safe", setting) == f"--set {setting}: valves: has moved: inputs"
+    old = tmp_path / "old.yaml"
+    text = library.shipped("cycle")["bench_fail_safe"].read_text()
+    old.write_text(text.replace("\ninputs:", "\nvalves:"))
+    line = problem(str(old))
+    assert line.startswith(f"{old}:") and line.endswith("valves: has moved: inputs")
+
+
+@pytest.mark.parametrize("name", ["bench_fail_safe", "single_wheel_bump_decoupled"])
+def test_a_shipped_cycle_commands_what_its_actuator_takes(name):
+    inputs = read_inputs(name)
+    assert inputs.cycle.value.inputs.model_fields_set <= set(system_for(inputs.actuator.value).INPUTS)
+    assert inputs.cycle.value.inputs.model_fields_set
+
+
+def test_an_input_that_is_not_commanded_rests(tmp_path):
+    inputs = read_inputs("s_curve_120kmh", "pump_controlled_full", settings=[f"inputs.front_bypass={OPEN}"])
+    held = {name: value(knots.signal(), 1.0) for name, knots in inputs.cycle.value.inputs}
+    assert held == {"front_bypass": 1.0, "front_fail_safe": 1.0, "rear_bypass": 0.0, "rear_fail_safe": 1.0}
+
+
+def test_inputs_are_those_of_the_actuator():
+    setting = "inputs.front_bypas={knots: [[0 s, 1]]}"
+    assert inputs_problem("pump_controlled_full", setting) == (
+        f"--set {setting}: inputs.front_bypas: unknown key; did you mean 'front_bypass'?; "
+        "allowed: front_bypass, front_fail_safe, rear_bypass, rear_fail_safe"
+    )
+    beyond = "inputs.front_bypass={knots: [[0 s, 2]]}"
+    assert inputs_problem("pump_controlled_full", beyond).endswith("'2': must be at most 1")
+
+
+def test_an_active_actuator_without_inputs_refuses_them():
+    line = inputs_problem("pump_controlled", f"inputs.front_bypass={OPEN}")
+    assert line == "inputs: the actuator 'pump_controlled' takes none"
+
+
+@pytest.mark.parametrize("actuator", ["passive", "locked", "none"])
+def test_a_bar_that_takes_no_command_runs_a_cycle_with_inputs_as_one_without(actuator):
+    settings = ("duration=0.05 s",)
+    bump = recording("single_wheel_bump_decoupled", actuator, *settings)
+    np.testing.assert_array_equal(bump.values, recording("single_wheel_bump", actuator, *settings).values)

@@ -2,7 +2,9 @@
 
 from ars_mujoco.actuators.electro_hydrostatic.axle import SENSED, AxleEnergy, AxleState
 from ars_mujoco.actuators.electro_hydrostatic.circuit import stored_energies
+from ars_mujoco.actuators.system import BarOutput
 from ars_mujoco.hydraulics.fixed_pump import fixed_pump_extrapolation
+from ars_mujoco.hydraulics.vane_motor_channels import ChamberedVaneMotorOutput, ValveOutput, circuit_tabs
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.records import numbers, share
 from ars_mujoco.machines.supply_channels import SHED, SUPPLY_TAB, SupplyEnergy, SupplyOutput, SupplyState
@@ -26,21 +28,6 @@ class Energy(Parameters):
     front: AxleEnergy
     rear: AxleEnergy
     supply: SupplyEnergy
-
-
-class BarOutput(Parameters):
-    angle: float = channel("rad", "angle of the motor between the bar's halves")
-    command: float = channel("rad", "commanded angle")
-
-
-class MotorOutput(Parameters):
-    pressure: float = channel("Pa", "pressure difference across the motor")
-    pressure_a: float = channel("Pa", "absolute pressure in the chamber that drives to positive angle")
-    pressure_b: float = channel("Pa", "absolute pressure in the other chamber")
-    rate: float = channel("rad/s", "rate of the motor angle")
-    output_power: float = channel("W", "power of the motor on the bar")
-    leakage_power: float = channel("W", "lost to leakage in the motor")
-    friction_power: float = channel("W", "lost to friction in the motor")
 
 
 class PumpOutput(Parameters):
@@ -69,11 +56,6 @@ class ReliefOutput(Parameters):
     power: float = channel("W", "lost over the relief valves")
 
 
-class ValveOutput(Parameters):
-    bypass: float = channel("1", "opening of the bypass valve, shut where there is none")
-    fail_safe: float = channel("1", "opening of the fail-safe valve, open where there is none")
-
-
 class EnergyOutput(AxleEnergy):
     oil: float = stored("stored in the oil's compression")
     accumulator: float = stored("stored in the gas of the accumulator")
@@ -86,7 +68,7 @@ class AxleOutput(Parameters):
     """What one axle records."""
 
     bar: BarOutput
-    motor: MotorOutput
+    motor: ChamberedVaneMotorOutput
     pump: PumpOutput
     machine: MachineOutput
     accumulator: AccumulatorOutput
@@ -103,22 +85,8 @@ class Output(Parameters):
     supply: SupplyOutput
 
 
-def _pressures(axle: str) -> Plot:
-    sides = ("motor.pressure_a", "motor.pressure_b", "accumulator.pressure")
-    return Plot(f"{axle} pressures", tuple(f"{axle}.{side}" for side in sides))
-
-
 PLOTS = (
-    Tab("front axle", (Plot("motor pressure", ("front.motor.pressure",)),)),
-    Tab("rear axle", (Plot("motor pressure", ("rear.motor.pressure",)),)),
-    Tab(
-        "circuit",
-        (
-            _pressures("front"),
-            _pressures("rear"),
-            Plot("valve openings", axles("valve.bypass", "valve.fail_safe")),
-        ),
-    ),
+    *circuit_tabs("accumulator.pressure"),
     Tab(
         "machine",
         (

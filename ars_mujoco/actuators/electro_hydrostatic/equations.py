@@ -10,9 +10,9 @@ import numpy as np
 
 from ars_mujoco.actuators.electro_hydrostatic.axle import CURRENT, POWERS, SPEED, STATES, Axle, asked_of, axle_rates
 from ars_mujoco.kernels.kernel import inlined
-from ars_mujoco.kernels.records import along, zeros
 from ars_mujoco.machines.electric_drive import granted, power_share, running, wish
-from ars_mujoco.machines.electric_supply import ElectricSupply, budget, supply_rates, terminal_voltage
+from ars_mujoco.machines.electric_supply import ElectricSupply, budget, terminal_voltage
+from ars_mujoco.machines.shared_supply import joined_rates
 from ars_mujoco.schema.parameters import record_dtype
 
 SUPPLY, SUPPLY_POWERS = 2 * STATES, 2 * POWERS  # where the supply's begin, after front and rear
@@ -61,16 +61,15 @@ def balance(p, demand, t, state) -> Balance:
 @inlined
 def rates(p, demand, t, state):
     """Derivatives of State, powers (W) in the order of Energy, and both bars' torques (Nm)."""
-    sides = balance(p, demand, t, state)
-    front, front_powers, front_torque = axle_rates(p.front, sides.front, demand[0], state[0:STATES])
-    rear, rear_powers, rear_torque = axle_rates(p.rear, sides.rear, demand[1], state[STATES:SUPPLY])
-    rear, rear_powers = along(zeros(rear), rear, p.has_rear), along(zeros(rear_powers), rear_powers, p.has_rear)
-    store, converter, supply_powers = supply_rates(p.supply, state[SUPPLY], state[SUPPLY + 1], sides.load)
-    return (
-        (*front, *rear, store, converter),
-        (*front_powers, *rear_powers, *supply_powers),
-        (front_torque, p.has_rear * rear_torque),
-    )
+    return balanced_rates(p, balance(p, demand, t, state), demand, state)
+
+
+@inlined
+def balanced_rates(p, sides, demand, state):
+    """The same where their Balance is known already."""
+    front = axle_rates(p.front, sides.front, demand[0], state[0:STATES])
+    rear = axle_rates(p.rear, sides.rear, demand[1], state[STATES:SUPPLY])
+    return joined_rates(p, front, rear, (state[SUPPLY], state[SUPPLY + 1]), sides.load)
 
 
 @inlined

@@ -25,16 +25,17 @@ from ars_mujoco.actuators.electro_hydrostatic.equations import (
     SUPPLY_POWERS,
     Demand,
     balance,
+    balanced_rates,
     rates,
 )
 from ars_mujoco.actuators.electro_hydrostatic.file import AXLES, check_valves, fill_axle, released
 from ars_mujoco.actuators.electro_hydrostatic.file import ElectroHydrostatic as File
 from ars_mujoco.actuators.system import Beyond, Car, Input
-from ars_mujoco.control.control_unit import BarCommand
+from ars_mujoco.control.control_unit import NOTHING_ASKED
 from ars_mujoco.kernels.integration import integrated
-from ars_mujoco.kernels.kernel import entry, kernel
+from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.records import numbers
-from ars_mujoco.kernels.substeps import fewest_substeps, scales, slopes
+from ars_mujoco.kernels.substeps import derivatives, fewest_substeps, scales, slopes
 from ars_mujoco.machines.electric_machine import DRIVEN, SHORTED
 from ars_mujoco.machines.supply_channels import report_supply, rest_supply
 from ars_mujoco.schema.parameters import fill as fill_block
@@ -56,17 +57,12 @@ FAR_PRESSURE = 1000e5  # Pa
 FAR_ANGLE = 2.0  # of the motor's stop
 FINER = 2  # times the substeps, so that the small loss over a fail-safe valve, whose mode is fast, is right as well
 PRESSURES = ("pump_a", "pump_b", "motor_a", "motor_b", "accumulator")
-IDLE = Demand(BarCommand((0.0, 0.0, 0.0), 0.0), 0.0, (0.0, 1.0), DRIVEN)
+IDLE = Demand(NOTHING_ASKED, 0.0, (0.0, 1.0), DRIVEN)
 
 STATE = np.dtype([("state", record_dtype(State)), ("energy", record_dtype(Energy))])
 
 step_through = integrated(rates)
-
-
-@entry
-def derivatives(p, demand, state):
-    """Derivatives of a State record."""
-    return rates(p, demand, 0.0, numbers(state))[0]
+_derivatives = derivatives(rates)
 
 
 @kernel
@@ -94,7 +90,7 @@ def _report(p, now, out, demand):
     # what a run records of the state now
     state, energy, numbered = now.state, now.energy, numbers(now.state)
     sides = balance(p, demand, 0.0, numbered)
-    _, powers, _ = rates(p, demand, 0.0, numbered)
+    _, powers, _ = balanced_rates(p, sides, demand, numbered)
     report(p.front, state.front, energy.front, out.front, demand[0], sides.front.electric, powers[0:POWERS])
     report(p.rear, state.rear, energy.rear, out.rear, demand[1], sides.rear.electric, powers[POWERS:SUPPLY_POWERS])
     report_supply(p.supply, state.supply, energy.supply, out.supply, sides.load, sides.share)
@@ -164,4 +160,4 @@ def _slopes(record) -> list[np.ndarray]:
         drawn.motor_a = drawn.motor_b = 0.0
         stopped.angle = 1.01 * circuit.motor.stop_angle
         bypassed.bypass = 1.0
-    return [slopes(derivatives, record, demand, look.state, scales(State)) for look in looks]
+    return [slopes(_derivatives, record, demand, look.state, scales(State)) for look in looks]

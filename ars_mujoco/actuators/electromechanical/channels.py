@@ -1,6 +1,7 @@
 """Channels of the electromechanical bars and their supply."""
 
 from ars_mujoco.actuators.electromechanical.unit import Energy
+from ars_mujoco.actuators.system import BarOutput
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.records import share
 from ars_mujoco.machines.electric_machine import drag
@@ -9,13 +10,6 @@ from ars_mujoco.machines.supply_channels import SHED, SUPPLY_TAB, SupplyOutput
 from ars_mujoco.schema.channels import channel, stored
 from ars_mujoco.schema.parameters import Parameters
 from ars_mujoco.schema.plots import Plot, Tab, axles
-
-
-class BarOutput(Parameters):
-    angle: float = channel("rad", "angle between the bar's halves")
-    command: float = channel(
-        "rad", "commanded angle; of a unit that follows a torque the angle at which the bar gives it"
-    )
 
 
 class MachineOutput(Parameters):

@@ -11,15 +11,17 @@ import numpy as np
 
 from ars_mujoco.actuators.electromechanical.channels import EVENTS, PLOTS, Output, report
 from ars_mujoco.actuators.electromechanical.unit import Energy, State, Unit, unit_rates, unit_wish
+from ars_mujoco.actuators.pair import FAR
 from ars_mujoco.actuators.system import Beyond, Car, Command, Input
-from ars_mujoco.control.control_unit import BarCommand
+from ars_mujoco.control.control_unit import NOTHING_ASKED
 from ars_mujoco.kernels.integration import integrated
 from ars_mujoco.kernels.kernel import inlined, kernel
-from ars_mujoco.kernels.records import along, numbers, zeros
+from ars_mujoco.kernels.records import numbers
 from ars_mujoco.kernels.substeps import derivatives, fewest_substeps, scales, slopes
 from ars_mujoco.machines.electric_drive import granted, power_share, running
 from ars_mujoco.machines.electric_machine import DRIVEN, SHORTED, torque_constant
-from ars_mujoco.machines.electric_supply import ElectricSupply, budget, supply_rates, terminal_voltage
+from ars_mujoco.machines.electric_supply import ElectricSupply, budget, terminal_voltage
+from ars_mujoco.machines.shared_supply import joined_rates
 from ars_mujoco.machines.supply_channels import SupplyEnergy, SupplyState, report_supply, rest_supply
 from ars_mujoco.schema.parameters import Parameters, record_dtype
 from ars_mujoco.schema.parameters import fill as fill_block
@@ -32,7 +34,6 @@ INPUTS = {
 }
 FRONT, REAR = range(2)  # of the inputs
 UNIT, SUPPLY = len(State.model_fields), 2 * len(State.model_fields)  # where the rear's states begin, and the supply's
-FAR = 1.6  # rad between the halves of a bar; nothing turns it by more than a quarter
 BEYOND = Beyond("the halves of a bar turned by over a quarter", ("front.bar.angle", "rear.bar.angle"))
 
 
@@ -103,15 +104,9 @@ def rates(p, demand, t, state):
     twist), the twists (rad) held. Without a rear bar, as on the bench, the rear stands still and draws nothing.
     """
     sides = balance(p, demand, state)
-    front, front_powers, front_torque = unit_rates(p.front, sides.front_current, demand[1], state[0:UNIT], sides.front)
-    rear, rear_powers, rear_torque = unit_rates(p.rear, sides.rear_current, demand[2], state[UNIT:SUPPLY], sides.rear)
-    rear, rear_powers = along(zeros(rear), rear, p.has_rear), along(zeros(rear_powers), rear_powers, p.has_rear)
-    store, converter, supply_powers = supply_rates(p.supply, state[SUPPLY], state[SUPPLY + 1], sides.load)
-    return (
-        (*front, *rear, store, converter),
-        (*front_powers, *rear_powers, *supply_powers),
-        (front_torque, p.has_rear * rear_torque),
-    )
+    front = unit_rates(p.front, sides.front_current, demand[1], state[0:UNIT], sides.front)
+    rear = unit_rates(p.rear, sides.rear_current, demand[2], state[UNIT:SUPPLY], sides.rear)
+    return joined_rates(p, front, rear, (state[SUPPLY], state[SUPPLY + 1]), sides.load)
 
 
 _integrate = integrated(rates)
@@ -146,21 +141,31 @@ def is_beyond(p, state) -> bool:
 
 
 def fill(record, file: File, car: Car, step: float) -> None:
-    """Write the parameters; the substeps are those of the stiffest equations, at rest and moving."""
+    """Write the parameters; the substeps are those of the stiffest equations: at rest, moving, loaded."""
     fill_block(record.supply, file.supply)
     record.has_rear = car.rear is not None
     for name, torsion in (("front", car.front), ("rear", car.rear or car.front)):
         fill_block(record[name].unit, getattr(file, name))
         record[name].stiffness = torsion.stiffness
     nudges, looks = scales(Equations), []
-    idle = BarCommand((0.0, 0.0, 0.0), 0.0)
-    demand = (Command(idle, idle, np.full(len(INPUTS), DRIVEN)), 0.0, 0.0)
-    for rate in (0.0, 1.0):  # rad/s of the bars
+    demand = (Command(NOTHING_ASKED, NOTHING_ASKED, np.full(len(INPUTS), DRIVEN)), 0.0, 0.0)
+    for rate, load in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)):  # rad/s of the bars; share of the greatest torque
         state = np.zeros(1, record_dtype(Equations)).view(np.recarray)[0]
         _rest(record, state)
         state.front.rotor_rate = state.front.rate = state.rear.rotor_rate = state.rear.rate = rate
+        for name in ("front", "rear"):
+            _press(record[name].unit, state[name], load)
         looks.append(slopes(_derivatives, record, demand, state, nudges))
     record.substeps = fewest_substeps(looks, step)
+
+
+def _press(unit, state, load: float) -> None:
+    """Let the machine press the teeth together with a share of the greatest torque: within the backlash the gear's
+    stiffness does not show, and without load its friction is at its smallest.
+    """
+    torque, gear = load * unit.loops.max_torque, unit.gear
+    state.current = torque / (gear.ratio * torque_constant(unit.drive.machine))
+    state.rotor_angle = state.angle + load * (0.5 * gear.backlash + unit.loops.max_torque / gear.stiffness)
 
 
 def start(record, state) -> None:

@@ -3,26 +3,10 @@
 from ars_mujoco.actuators.pump_controlled.drive_speed import DriveOutput
 from ars_mujoco.actuators.pump_controlled.full_circuit import FullCircuitEnergy
 from ars_mujoco.actuators.pump_controlled.third_order_circuit import CircuitEnergy
+from ars_mujoco.actuators.system import BarOutput
+from ars_mujoco.hydraulics.vane_motor_channels import ChamberedVaneMotorOutput, ValveOutput, VaneMotorOutput
 from ars_mujoco.schema.channels import channel, stored
 from ars_mujoco.schema.parameters import Parameters
-
-
-class BarOutput(Parameters):
-    angle: float = channel("rad", "angle of the motor between the bar's halves")
-    command: float = channel("rad", "commanded angle")
-
-
-class MotorOutput(Parameters):
-    pressure: float = channel("Pa", "pressure difference across the motor")
-    rate: float = channel("rad/s", "rate of the motor angle")
-    output_power: float = channel("W", "power of the motor on the bar")
-    leakage_power: float = channel("W", "lost to leakage in the motor")
-    friction_power: float = channel("W", "lost to friction in the motor")
-
-
-class FullMotorOutput(MotorOutput):
-    pressure_a: float = channel("Pa", "absolute pressure in the chamber that drives to positive angle")
-    pressure_b: float = channel("Pa", "absolute pressure in the other chamber")
 
 
 class PumpOutput(Parameters):
@@ -60,11 +44,6 @@ class FullChargeOutput(ChargeOutput):
     pressure: float = channel("Pa", "absolute pressure of the charge line")
 
 
-class ValveOutput(Parameters):
-    bypass: float = channel("1", "opening of the bypass valve")
-    fail_safe: float = channel("1", "opening of the fail-safe valve")
-
-
 class EnergyOutput(CircuitEnergy):
     oil: float = stored("stored in the oil's compression")
     bar: float = stored("stored in the bar's torsion and the motor's mechanical stop")
@@ -82,7 +61,7 @@ class AxleOutput(Parameters):
     """What one axle records with the reduced circuit."""
 
     bar: BarOutput
-    motor: MotorOutput
+    motor: VaneMotorOutput
     pump: PumpOutput
     relief: ReliefOutput
     charge: ChargeOutput
@@ -98,7 +77,7 @@ class CylinderAxleOutput(AxleOutput):
 class FullAxleOutput(CylinderAxleOutput):
     """What one axle records with the full circuit."""
 
-    motor: FullMotorOutput
+    motor: ChamberedVaneMotorOutput
     pump: FullPumpOutput
     charge: FullChargeOutput
     valve: ValveOutput

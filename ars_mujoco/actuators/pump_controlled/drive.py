@@ -6,8 +6,8 @@ from pydantic import Field
 
 from ars_mujoco.actuators.pump_controlled import drive_speed as kinds
 from ars_mujoco.excitation.knots import KnotsOf
-from ars_mujoco.machines.electric_motor import ElectricMotor
 from ars_mujoco.machines.engine import Engine
+from ars_mujoco.machines.pump_drive import PumpDrive
 from ars_mujoco.schema.parameters import Parameters, fill
 
 
@@ -24,7 +24,7 @@ class Table(Parameters):
     speed: KnotsOf("rad/s", ge=0)
 
 
-Drive = Annotated[Constant | Table | Engine | ElectricMotor, Field(discriminator="kind")]
+Drive = Annotated[Constant | Table | Engine | PumpDrive, Field(discriminator="kind")]
 
 
 def first_speed(drive: Drive, stated: float) -> float:
@@ -32,8 +32,8 @@ def first_speed(drive: Drive, stated: float) -> float:
     match drive:
         case Table():
             return float(drive.speed.signal().values[0])
-        case ElectricMotor():
-            return drive.no_load_speed
+        case PumpDrive():
+            return drive.speed
     return stated
 
 
@@ -48,6 +48,6 @@ def fill_drive(record, drive: Drive) -> None:
             record.kind, record.gearbox.count = kinds.ENGINE, len(ratios)
             record.gearbox.ratios[: len(ratios)] = ratios
             fill(record.engine, drive)
-        case ElectricMotor():
+        case PumpDrive():
             record.kind = kinds.ELECTRIC
-            fill(record.motor, drive)
+            fill(record.electric, drive)

@@ -1,4 +1,4 @@
-"""Drive: what turns the shafts of both pumps (paper section 3): at a constant speed, a table's, an engine or a motor.
+"""Drive: what turns the shafts of both pumps (paper section 3): a constant speed, a table, an engine or a machine.
 
 A drive sets the pumps' speed once a physics step and the circuits keep it over the step, so that gain schedule, flow
 and losses all see the same; what the pumps then took of the shaft loads the electric motor's rotor over that step.
@@ -8,8 +8,8 @@ import numpy as np
 
 from ars_mujoco.excitation.knots import SIGNAL, value
 from ars_mujoco.kernels.kernel import kernel
-from ars_mujoco.machines.electric_motor import ElectricMotor, electrical_power, turn
 from ars_mujoco.machines.engine import GEARBOX, Engine, engine_speed, gear
+from ars_mujoco.machines.pump_drive import PumpDrive, electrical_power, turn, wanted_slip
 from ars_mujoco.schema.channels import channel
 from ars_mujoco.schema.parameters import Parameters, record_dtype
 
@@ -21,7 +21,7 @@ DRIVE = np.dtype(
         ("speed", SIGNAL),  # rad/s, a table's
         ("engine", record_dtype(Engine)),
         ("gearbox", GEARBOX),
-        ("motor", record_dtype(ElectricMotor)),
+        ("electric", record_dtype(PumpDrive)),
     ]
 )
 
@@ -30,7 +30,8 @@ class DriveState(Parameters):
     """State of the drive."""
 
     gear: float = channel("1", "gear of the engine, 0 the first")
-    slip: float = channel("rad/s", "no-load speed of the electric motor less its rotor's")
+    slip: float = channel("rad/s", "speed of the electric drive without load, less its rotor's")
+    idle: float = channel("s", "time since a bar was last commanded")
 
 
 class DriveOutput(Parameters):
@@ -57,20 +58,24 @@ def set_speed(drive, now, later, out, pumps, time: float, road_speed: float) -> 
         out.gear, ratio = later.gear + 1.0, drive.engine.pump_ratio
         out.speed = engine_speed(drive.engine, drive.gearbox, later.gear, road_speed)
     elif drive.kind == ELECTRIC:
-        out.speed = drive.motor.no_load_speed - now.slip
+        out.speed = drive.electric.speed - now.slip
     else:
         out.speed = value(drive.speed, time)
     front.speed = rear.speed = ratio * out.speed
 
 
 @kernel
-def take_work(drive, now, later, out, work: float, step: float) -> None:
-    """Let the drive do the `work` (J) that the pumps on its shaft took over the last `step` (s)."""
+def take_work(drive, now, later, out, work: float, asked: float, step: float) -> None:
+    """Let the drive do the `work` (J) that the pumps on its shaft took over the last `step` (s); an electric one wakes
+    where a bar is commanded by the angle `asked` (rad).
+    """
     out.power = work / step
     if drive.kind == ELECTRIC:
-        motor, speed = drive.motor, drive.motor.no_load_speed - now.slip
+        electric = drive.electric
+        later.idle = 0.0 if asked >= electric.wake_angle else now.idle + step
+        speed = electric.speed - now.slip
         load = out.power / speed if speed > 0.0 else 0.0  # a pump that stands takes no power
-        slip, torque = turn(motor, now.slip, load, step)
-        later.slip = min(slip, motor.no_load_speed)  # pumps do not turn backwards
-        mean_speed = motor.no_load_speed - 0.5 * (now.slip + later.slip)
-        out.power = electrical_power(motor, torque * mean_speed)
+        slip, torque = turn(electric, now.slip, wanted_slip(electric, now.idle), load, step)
+        later.slip = min(slip, electric.speed)  # pumps do not turn backwards
+        mean_speed = electric.speed - 0.5 * (now.slip + later.slip)
+        out.power = electrical_power(electric, torque, mean_speed)

@@ -170,7 +170,8 @@ def check_sampled(name: str, filtering: PressureFeedback | PoleCompensator, unit
     place = f"actuator.control.{name}"
     if unit.sample_time == 0.0:
         raise InputError(
-            f"{place}: a digital filter, but the unit is continuous; allowed: with a controller.unit.sample_time over 0 s"
+            f"{place}: a digital filter, but the unit is continuous; allowed: with a controller.unit.sample_time over "
+            "0 s"
         )
     frequency = "corner" if isinstance(filtering, PressureFeedback) else "frequency"
     fastest = math.pi / unit.sample_time

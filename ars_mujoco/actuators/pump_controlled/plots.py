@@ -1,27 +1,14 @@
 """What a recording shows and tells of the pump-controlled bars."""
 
+from ars_mujoco.hydraulics.vane_motor_channels import circuit_tabs
 from ars_mujoco.schema.events import Condition
 from ars_mujoco.schema.plots import Plot, Tab, axles
 
 FULL_STROKE = 0.999  # of the pump, from where it counts as saturated
 
 
-def _pressures(axle: str) -> Plot:
-    sides = ("motor.pressure_a", "motor.pressure_b", "charge.pressure")
-    return Plot(f"{axle} pressures", tuple(f"{axle}.{side}" for side in sides))
-
-
 PLOTS = (
-    Tab("front axle", (Plot("motor pressure", ("front.motor.pressure",)),)),
-    Tab("rear axle", (Plot("motor pressure", ("rear.motor.pressure",)),)),
-    Tab(
-        "circuit",
-        (
-            _pressures("front"),
-            _pressures("rear"),
-            Plot("valve openings", axles("valve.bypass", "valve.fail_safe")),
-        ),
-    ),
+    *circuit_tabs("charge.pressure"),
     Tab(
         "pump",
         (

@@ -1,8 +1,8 @@
 """Strokes: from commanded bar angles to what both pumps are asked for, and both circuits on their drive.
 
-This part every stage shares; `circuits` is the module of one stage, with its `advance_circuits`, `report` and `openings`.
-The outer loop runs in the car's control unit. A continuous unit delays the commanded angle and leaves the outer loop to
-the circuits' substeps; a sampling unit computes the outer loop itself and delays the stroke.
+This part every stage shares; `circuits` is the module of one stage, with its `advance_circuits`, `report` and
+`openings`. The outer loop runs in the car's control unit. A continuous unit delays the commanded angle and leaves the
+outer loop to the circuits' substeps; a sampling unit computes the outer loop itself and delays the stroke.
 """
 
 import numpy as np
@@ -91,7 +91,8 @@ def advance_stage(p, now, later, out, work, command, twists, moment, circuits):
         circuits.report(p.rear, now.rear, out.rear, twists.rear.angle, work)
     shaft = circuits.shaft_work
     done = shaft(later.front) - shaft(now.front) + shaft(later.rear) - shaft(now.rear)
-    take_work(p.drive, now.drive, later.drive, out.drive, done, step)
+    asked = max(abs(command.front.angle[0]), abs(command.rear.angle[0]))
+    take_work(p.drive, now.drive, later.drive, out.drive, done, asked, step)
     return torques
 
 

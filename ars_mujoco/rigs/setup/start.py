@@ -35,7 +35,7 @@ class Start:
 
     @cached_property
     def simulation(self) -> Simulation:
-        """The simulation, compiled with room for the world in userdata and in the last custom numeric, after the tables.
+        """The simulation, compiled with room for the world in userdata and, after the tables, in a custom numeric.
 
         Raises InputError where MuJoCo refuses the vehicle's model.
         """

@@ -50,9 +50,15 @@ def test_a_step_rises_from_10_to_90_percent_as_fast_as_the_machine_can(torque, e
 
 @pytest.mark.parametrize(("power", "expected"), [(2000, 0.085), (1200, 0.114), (800, 0.171), (500, 0.296)])
 def test_with_limited_power_it_takes_the_time_that_the_energy_takes(power, expected):
-    """Derived for a gear without torsion; the shipped one's stores 15 J more, and is later by 12 to 14 %."""
-    assert reached(step(1200, RIGID, *limited(power)), 0.9 * 1200) == pytest.approx(expected, rel=0.15)
-    assert rise(step(1200, *limited(power)), 1200) == pytest.approx(expected, rel=0.15)
+    """Derived for a gear without torsion; the 15 J that the shipped gear's stores make it later, by 14 to 24 %."""
+    assert reached(step(1200, RIGID, *limited(power)), 0.9 * 1200) == pytest.approx(expected, rel=0.10)
+    assert 1.13 < reached(step(1200, *limited(power)), 0.9 * 1200) / expected < 1.25
+
+
+def test_a_gear_a_hundred_times_as_stiff_gets_the_substeps_that_its_teeth_ask_for():
+    """Within the backlash, at rest, its stiffness is not to be seen; with too few substeps the teeth rattle."""
+    torque = step(1200, "actuator.front.gear.stiffness=2e7 Nm/rad", *STIFF_SUPPLY)["front.bar.torque"][-100:]
+    assert np.ptp(torque) < 1.0
 
 
 @pytest.mark.parametrize("power", [1200, 500])
@@ -71,15 +77,21 @@ def test_holding_a_torque_takes_the_power_of_its_current(torque, expected):
     assert run["front.machine.power"][-1] == pytest.approx(expected, rel=0.10)
 
 
-def test_friction_that_helps_to_hold_saves_a_quarter_of_the_copper_loss():
-    """At rest the gear holds anything between: the machine may give eta_b M/i in place of M/i."""
-    eta = 0.88
-    assert ((2 - 1 / eta) ** 2) == pytest.approx(0.75, rel=0.05)
+def test_friction_that_helps_to_let_the_bar_down_saves_a_quarter_of_the_copper_loss():
+    """The machine gives eta_b M/i in place of M/i: (2 - 1/0.88)^2."""
+    down = "{join: linear, knots: [[0 s, 0 deg], [0.3 s, 12 deg], [0.6 s, 12 deg], [2.6 s, 4 deg]]}"
+    settings = (f"manoeuvre.command={down}", "duration=2.6 s", *STIFF_SUPPLY)
+    slow = shipped.recording("bench_step_1deg", "electromechanical", *settings)
+    at = np.searchsorted(slow.time, 1.6)
+    copper = np.gradient(slow["front.energy.copper"], slow.time)[at]
+    held = 1.5 * 0.030 * (slow["front.bar.torque"][at] / (160 * 0.120)) ** 2
+    print(copper / held)
+    assert copper / held == pytest.approx((2 - 1 / 0.88) ** 2, rel=0.05)
 
 
 def test_a_step_of_1200_Nm_takes_the_energy_that_it_stores_and_about_as_much_again():
     run = step(1200, *STIFF_SUPPLY)
-    end = np.searchsorted(run.time, 0.35)
+    end = np.searchsorted(run.time, 0.35)  # settled: from 0.31 s on it holds, for 200 W
     assert run["front.energy.electrical"][end] == pytest.approx(265.0, rel=0.10)
     assert run["front.energy.bar"][end] == pytest.approx(126.0, rel=0.01)
 

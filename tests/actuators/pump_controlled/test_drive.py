@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ars_mujoco.actuators.registry import actuator_schema
-from ars_mujoco.machines.electric_motor import ElectricMotor
 from ars_mujoco.machines.engine import Engine
+from ars_mujoco.machines.pump_drive import PumpDrive
 from ars_mujoco.schema.document import override, read
 from ars_mujoco.schema.errors import InputError
 from ars_mujoco.studies.inputs import read_inputs
@@ -30,7 +30,7 @@ def test_the_shipped_drive_is_constant_and_so_is_that_of_a_file_without_one(tmp_
     assert read(actuator_schema(), own, "actuator").value.drive.kind == "constant"
 
 
-@pytest.mark.parametrize(("kind", "schema"), [("engine", Engine), ("electric", ElectricMotor)])
+@pytest.mark.parametrize(("kind", "schema"), [("engine", Engine), ("electric", PumpDrive)])
 def test_naming_the_kind_is_enough(kind, schema):
     assert drive(f"kind={kind}") == schema(kind=kind)
 
@@ -56,7 +56,7 @@ def test_values_carry_units():
         (["kind=engine", "upshift_speed=7000 rpm"], r"upshift_speed must lie between idle_speed and max_speed"),
         (["kind=engine", "downshift_speed=1700 rpm"], r"upshift_speed must be more than 1.68 times downshift_speed"),
         (["kind=engine", "rolling_radius=0 m"], r"drive.rolling_radius: '0 m': must be greater than 0 m"),
-        (["kind=electric", "efficiency=110 %"], r"drive.efficiency: '110 %': must be at most 100 %"),
+        (["kind=electric", "machine.modulation=110 %"], r"drive.machine.modulation: '110 %': must be at most 100 %"),
         (["kind=electric", "inertia=0 kg*m^2"], r"drive.inertia.*must be greater than 0"),
         (["kind=table"], r"drive.speed: is missing"),
         (["kind=table", "speed={knots: [[0 s, -1 rpm]]}"], r"drive.speed.knots.0.1: '-1 rpm': must be at least 0 rpm"),

@@ -60,7 +60,7 @@ def test_an_engine_tells_its_gear_as_a_driver_counts_it():
     assert (later.gear, out.gear) == (4.0, 5.0)
 
 
-def test_an_electric_motor_runs_at_its_no_load_speed_less_its_slip():
+def test_an_electric_drive_runs_at_its_speed_less_its_slip():
     now = blank(DriveState)
     now.slip = 10.0
     speeds, _, _ = set_at(record({"kind": "electric"}), now=now)
@@ -70,27 +70,45 @@ def test_an_electric_motor_runs_at_its_no_load_speed_less_its_slip():
 @pytest.mark.parametrize("kind", ["constant", "engine"])
 def test_mechanical_drives_give_what_the_pumps_take(kind):
     out = blank(DriveOutput)
-    take_work(record({"kind": kind}), blank(DriveState), blank(DriveState), out, -0.3, H)
+    take_work(record({"kind": kind}), blank(DriveState), blank(DriveState), out, -0.3, 0.0, H)
     assert out.power == pytest.approx(-300.0)
 
 
-def test_a_loaded_electric_motor_settles_where_its_torque_is_the_pumps():
+def test_a_loaded_electric_drive_settles_where_its_torque_is_the_pumps():
     drive, now, out = record({"kind": "electric"}), blank(DriveState), blank(DriveOutput)
     for _ in range(100):
-        take_work(drive, now, now, out, 6.0 * (3000 * RPM - now.slip) * H, H)  # 6 Nm of pumps
+        take_work(drive, now, now, out, 6.0 * (3000 * RPM - now.slip) * H, 1.0, H)  # 6 Nm of pumps
     assert now.slip == pytest.approx(6.0 / 0.75)
-    assert out.power == pytest.approx(6.0 * (3000 * RPM - 8.0) / 0.85)
+    speed = 3000 * RPM - 8.0
+    torque = 6.0 + 4e-4 * speed + 0.03  # the machine's own drag
+    current = torque / 0.096
+    heat = 1.5 * 0.018 * current**2 + 6.0 + 0.012 * 24.0 * current
+    assert out.power == pytest.approx(torque * speed + heat, rel=1e-6)
 
 
-def test_an_overloaded_electric_motor_stalls_and_does_not_turn_back():
+def test_an_overloaded_electric_drive_stalls_and_does_not_turn_back():
     drive, now, out = record({"kind": "electric"}), blank(DriveState), blank(DriveOutput)
     slips = []
     for _ in range(300):
-        take_work(drive, now, now, out, 20.0 * (3000 * RPM - now.slip) * H, H)
+        take_work(drive, now, now, out, 20.0 * (3000 * RPM - now.slip) * H, 1.0, H)
         slips.append(now.slip)
     one_step = 12.0 / 0.004 * H  # from a stand, before the pumps load it
     assert max(slips) == 3000 * RPM
     assert min(slips[-100:]) >= 3000 * RPM - one_step - 1e-9
+
+
+def test_a_drive_that_may_stop_stands_2_s_after_the_last_command_and_wakes_with_the_next():
+    drive, now, out = record({"kind": "electric", "standby_speed": "0 rpm"}), blank(DriveState), blank(DriveOutput)
+    speeds = []
+    for i in range(4000):
+        asked = np.radians(2.0) if i < 500 or i >= 3500 else np.radians(0.5)
+        take_work(drive, now, now, out, 0.4 * (3000 * RPM - now.slip) * H, asked, H)  # what idling pumps take
+        speeds.append(3000 * RPM - now.slip)
+    settled = 3000 * RPM - 0.4 / 0.75
+    assert speeds[2490] == pytest.approx(settled, rel=1e-6)
+    assert speeds[3499] == pytest.approx(0.0, abs=0.6)
+    ran_up = next(i for i, speed in enumerate(speeds[3500:]) if speed > 0.94 * 3000 * RPM)
+    assert H * ran_up == pytest.approx(0.94 * 0.108, rel=0.05)
 
 
 def test_setting_the_speed_again_changes_nothing():

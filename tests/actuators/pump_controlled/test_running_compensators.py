@@ -90,12 +90,13 @@ def _gain(gain: str) -> str:
     [
         (
             FEEDBACK,
-            "pressure_feedback: .*a digital filter, but the unit is continuous; allowed: with a controller.unit.sample_time",
+            "pressure_feedback: .*a digital filter, but the unit is continuous; allowed: with a controller.unit.sample",
         ),
         (COMPENSATOR, "compensator: .*a digital filter, but the unit is continuous"),
         (
             (*COMPENSATOR, "controller.unit.sample_time=5 ms"),
-            "compensator: .*frequency of 834 rad/s is beyond what a controller.unit.sample_time of 5 ms can filter; allowed: less "
+            "compensator: .*frequency of 834 rad/s is beyond what a controller.unit.sample_time of 5 ms can "
+            "filter; allowed: less "
             "than 628.319 rad/s",
         ),
         ((SAMPLED, _gain("0.1 1/bar")), "pressure_feedback.corner: is missing"),
