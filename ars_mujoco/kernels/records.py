@@ -16,17 +16,6 @@ def along(state: Any, rates: Any, h: float) -> Any:
     return tuple([x + h * rate for x, rate in zip(state, rates, strict=True)])
 
 
-def weighted(state, k1, k2, k3, k4, h):
-    """`state` after a step `h` with the rates of the four stages of the classical Runge-Kutta method."""
-    w = h / 6.0
-    return tuple([x + w * (a + 2.0 * (b + c) + d) for x, a, b, c, d in zip(state, k1, k2, k3, k4, strict=True)])
-
-
-def mean(k1, k2, k3, k4):
-    """The means over a step of what four stages give, with the weights of that method."""
-    return tuple([(a + 2.0 * (b + c) + d) * (1.0 / 6.0) for a, b, c, d in zip(k1, k2, k3, k4, strict=True)])
-
-
 def zeros(like: Any) -> Any:
     """As many zeros as the tuple `like` has numbers."""
     return tuple([0.0 for _ in like])
@@ -71,18 +60,6 @@ def _places(record):
 @specialized(along)
 def _along(state, rates, h):
     return _giving("state, rates, h", [f"state[{i}] + h * rates[{i}]" for i in range(len(state))])
-
-
-@specialized(weighted)
-def _weighted(state, k1, k2, k3, k4, h):
-    each = [f"state[{i}] + h / 6.0 * (k1[{i}] + 2.0 * (k2[{i}] + k3[{i}]) + k4[{i}])" for i in range(len(state))]
-    return _giving("state, k1, k2, k3, k4, h", each)
-
-
-@specialized(mean)
-def _mean(k1, k2, k3, k4):
-    each = [f"(k1[{i}] + 2.0 * (k2[{i}] + k3[{i}]) + k4[{i}]) * (1.0 / 6.0)" for i in range(len(k1))]
-    return _giving("k1, k2, k3, k4", each)
 
 
 @specialized(zeros)
