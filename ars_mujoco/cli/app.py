@@ -142,7 +142,7 @@ def bench(as_json: Json = False) -> None:
     """Cost of a closed-loop step over a bare mj_step of the same model, at every stage of the hydraulics."""
     from dataclasses import asdict
 
-    from ars_mujoco.studies.benchmark import measure, recording_ratio
+    from ars_mujoco.studies.benchmark import measure, preparation, recording_ratio
     from ars_mujoco.studies.inputs import read_inputs
     from ars_mujoco.studies.study import simulation_of
 
@@ -152,11 +152,13 @@ def bench(as_json: Json = False) -> None:
             inputs = read_inputs(BENCH_CYCLE, actuator, settings=[f"actuator.pump_control={stage}"])
             rows.append({"circuit": circuit, "pump_control": stage, **asdict(measure(simulation_of(inputs)))})
     recording = recording_ratio(simulation_of(read_inputs(BENCH_CYCLE)))
+    before = preparation(simulation_of(read_inputs(BENCH_CYCLE)), lambda: simulation_of(read_inputs(BENCH_CYCLE)))
     if as_json:
-        print_json({"cycle": BENCH_CYCLE, "stages": rows, "recording_ratio": recording})
+        print_json({"cycle": BENCH_CYCLE, "stages": rows, "recording_ratio": recording, "before_a_run": before})
         return
     print_table(BENCH_CYCLE, [_cost(row) for row in rows])
     print(f"A run that writes its .rrd takes {recording:.3f} times one that does not (reduced, third_order).")
+    print("Before a run, of a second of it: set-up {set_up:.2f}, digest of its entry {digest:.2f}.".format(**before))
 
 
 def _cost(row: dict[str, Any]) -> dict[str, str]:

@@ -138,7 +138,7 @@ class _Telling:
             self.tell((template._jit_options, template._overload_func))
 
     def _tell_code(self, code: CodeType, scope: dict) -> None:
-        text, names, loads = _instructions(code)
+        text, names, loads = instructions(code)
         self.said.update(text)
         self.names |= names
         for kind, value in loads:
@@ -184,14 +184,14 @@ class _Telling:
 
 
 @cache
-def _instructions(code: CodeType) -> tuple[bytes, frozenset[str], list[tuple]]:
+def instructions(code: CodeType) -> tuple[bytes, frozenset[str], list[tuple]]:
     """A function's text, the names that it reads from something, and what it loads: globals and constants.
 
     A global is told as its name and the attributes that are read from it at once. A constant that no instruction loads,
     as a docstring, is not among them.
     """
     words, names, loads, path = [], set(), [], None
-    for each in dis.get_instructions(code):
+    for each in dis.getinstructions(code):
         name, argument = each.opname, each.argval
         if argument is dis.UNKNOWN:  # names of keywords, in Python 3.11
             argument = code.co_consts[each.arg]

@@ -5,6 +5,7 @@ last forces held), both from the same state in mid-manoeuvre, so that a machine 
 """
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,12 +14,13 @@ import mujoco
 import numpy as np
 
 from ars_mujoco.bridge.callback import installed
+from ars_mujoco.kernels.program import digest, instructions
 from ars_mujoco.recording.folder import RunFolder
 from ars_mujoco.simulation.sampler import Sampler
 from ars_mujoco.simulation.simulation import Simulation, empty_recording, simulate
 
 ROUND = 1000  # steps
-RECORDED = 9  # whole runs, with and without a recording
+RECORDED = 9  # whole runs, with and without a recording; times a run is prepared
 LEAD = 2.0  # s driven before the first round, so that everything moves
 
 
@@ -78,6 +80,20 @@ def recording_ratio(simulation: Simulation) -> float:
         record()
         _timed(lambda: simulate(simulation), plain)
     return float(np.median(np.divide(recorded, plain)))
+
+
+def preparation(simulation: Simulation, prepare: Callable[[], object]) -> dict[str, float]:
+    """What comes before a run over the time of a second of it, medians: `prepare`, and the digest of its entry."""
+    model, data = simulation.model, simulation.start()
+    steps = round(1.0 / model.opt.timestep)
+    second, taken = [], {"set_up": [], "digest": []}
+    with installed(simulation.rig, model, data):
+        for _ in range(RECORDED):
+            _timed(lambda: mujoco.mj_step(model, data, steps), second)
+            _timed(prepare, taken["set_up"])
+            instructions.cache_clear()
+            _timed(lambda: digest(simulation.rig.CALLBACK.function), taken["digest"])
+    return {name: float(np.median(np.divide(seconds, second))) for name, seconds in taken.items()}
 
 
 def _timed(function, seconds: list[float]) -> None:
