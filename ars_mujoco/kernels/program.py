@@ -191,7 +191,7 @@ def instructions(code: CodeType) -> tuple[bytes, frozenset[str], list[tuple]]:
     as a docstring, is not among them.
     """
     words, names, loads, path = [], set(), [], None
-    for each in dis.getinstructions(code):
+    for each in dis.get_instructions(code):
         name, argument = each.opname, each.argval
         if argument is dis.UNKNOWN:  # names of keywords, in Python 3.11
             argument = code.co_consts[each.arg]
