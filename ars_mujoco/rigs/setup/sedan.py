@@ -1,4 +1,4 @@
-"""Set-up of the sedan: parked at true rest first, then rolling at the cycle's first speed, then told where to drive."""
+"""Set-up of the sedan: parked at rest, learnt by its driver, rolling at the cycle's first speed, told where to go."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from ars_mujoco.excitation.knots import signal
 from ars_mujoco.manoeuvres.cycle import Circle, Cycle, Follow, StepSteer, Straight
 from ars_mujoco.rigs.setup.car import fill_addresses, fill_reference, law_of, torsion
 from ars_mujoco.rigs.setup.start import Start
-from ars_mujoco.rigs.setup.steady_turn import steering_angle, understeer
+from ars_mujoco.rigs.setup.steady_turn import LEARNT, steering_angle, understeer
 from ars_mujoco.schema.parameters import Parameters, fill
 from ars_mujoco.simulation.simulation import Simulation
 from ars_mujoco.tires.contact import rolling_radius
@@ -36,7 +36,8 @@ def set_up(cycle: Cycle, actuator: Parameters, controller: Controller, vehicle: 
         fill(parameters.bump, cycle.road.bump)
     _park(start)
     parameters.speed = cycle.speed_signal()
-    _roll_out(start, vehicle)
+    _learn(start, vehicle)
+    _roll_out(start, vehicle, parameters.speed.values[0])
     _let_drive(start, cycle)
     return start.stored()
 
@@ -56,10 +57,16 @@ def _park(start: Start) -> None:
         rest.solve(simulation.model, data)
 
 
-def _roll_out(start: Start, vehicle: Sedan) -> None:
-    """Start the keyframe at the cycle's first speed, the wheels rolling without slip."""
+def _learn(start: Start, vehicle: Sedan) -> None:
+    """The driver asks the car how it answers to steering, at the cycle's first speed where that can tell."""
+    speed = max(start.parameters.speed.values[0], LEARNT)
+    _roll_out(start, vehicle, speed)
+    start.parameters.driver.understeer = understeer(start, speed)
+
+
+def _roll_out(start: Start, vehicle: Sedan, speed: float) -> None:
+    """Start the keyframe at `speed` (m/s), the wheels rolling without slip."""
     model, parameters = start.simulation.model, start.parameters
-    speed = parameters.speed.values[0]
     velocity = model.key_qvel[0].copy()
     velocity[0] = speed
     for axle, dof in zip(AXLES, parameters.at.spin_velocity, strict=True):
@@ -69,9 +76,8 @@ def _roll_out(start: Start, vehicle: Sedan) -> None:
 
 
 def _let_drive(start: Start, cycle: Cycle) -> None:
-    """Give the driver the path or the steering angle; both first ask the car how it answers to steering."""
+    """Give the driver the path, or the steering angle, which the car is asked for."""
     parameters, manoeuvre = start.parameters, cycle.manoeuvre
-    parameters.driver.understeer = understeer(start)
     if isinstance(manoeuvre, StepSteer):
         angle = steering_angle(start, manoeuvre.lateral_acceleration)
         parameters.demand = signal([manoeuvre.start, manoeuvre.start + manoeuvre.ramp], [0.0, angle], "linear")
