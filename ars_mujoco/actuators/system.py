@@ -19,6 +19,7 @@ Data:
     IN_UNIT                  whether its own loop runs in the car's control unit; else it gets commands that arrive late
     INPUTS                   what a cycle may command besides, by name
     BEYOND                   what to say of a run in which `is_beyond` came true
+    SIZING                   how its parts follow from what a car requires, see `actuators.sizing` (optional)
 
 Kernels (compiled; floats and records alone):
 

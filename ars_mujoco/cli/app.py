@@ -11,6 +11,7 @@ import typer
 from ars_mujoco.cli.analyze import analyze, fit_losses, reproduce
 from ars_mujoco.cli.console import print_json, print_table, progress_bars, warnings_in_one_line
 from ars_mujoco.cli.options import RUNS, Actuator, Controller, CycleName, Json, Out, Settings, Vehicle
+from ars_mujoco.cli.size import size
 from ars_mujoco.schema import library
 from ars_mujoco.schema.errors import ArsError, InputError, SimulationError
 
@@ -238,4 +239,5 @@ def _channels() -> list[dict[str, str]]:
 
 app.command()(analyze)
 app.command()(reproduce)
+app.command()(size)
 app.command("fit-losses")(fit_losses)

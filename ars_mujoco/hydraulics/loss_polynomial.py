@@ -99,6 +99,11 @@ class LossPolynomial(Parameters):
         """Least and largest stroke, speed (rad/s) and pressure (Pa)."""
         return self.validity.stroke, self.validity.speed, self.validity.pressure
 
+    def at(self, stroke: float, speed: float, pressure: float) -> float:
+        """The loss in SI at a stroke, a speed (rad/s) and a pressure (Pa), none of them negative."""
+        n, p = speed / self.normal_speed, pressure / self.normal_pressure
+        return self.norm * max(sum(k * stroke**i * n**j * p**m for (i, j, m), k in self.terms.items()), 0.0)
+
     def scaled(self, ratio: float) -> Self:
         """The loss of a geometrically similar machine of `ratio` times the displacement.
 

@@ -33,6 +33,11 @@ class ElectricMachine(Parameters):
     friction: float = quantity("Nm", ge=0)  # of the bearings
     sign_speed: float = quantity("rad/s", gt=0)  # over which the sign of friction and hysteresis is rounded
 
+    @property
+    def peak_torque(self) -> float:
+        """Torque (Nm) at the current limit, below the corner speed."""
+        return 1.5 * self.pole_pairs * self.flux * self.current_limit
+
 
 @kernel
 def torque_constant(machine: ElectricMachine) -> float:

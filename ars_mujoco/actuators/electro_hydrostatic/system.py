@@ -30,6 +30,7 @@ from ars_mujoco.actuators.electro_hydrostatic.equations import (
 )
 from ars_mujoco.actuators.electro_hydrostatic.file import AXLES, check_valves, fill_axle, released
 from ars_mujoco.actuators.electro_hydrostatic.file import ElectroHydrostatic as File
+from ars_mujoco.actuators.electro_hydrostatic.sizing import SIZING
 from ars_mujoco.actuators.system import Beyond, Car, Input
 from ars_mujoco.control.control_unit import NOTHING_ASKED
 from ars_mujoco.kernels.integration import integrated

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from ars_mujoco.actuators.electromechanical.channels import EVENTS, PLOTS, Output, report
+from ars_mujoco.actuators.electromechanical.sizing import SIZING
 from ars_mujoco.actuators.electromechanical.unit import Energy, State, Unit, unit_rates, unit_wish
 from ars_mujoco.actuators.pair import FAR
 from ars_mujoco.actuators.system import Beyond, Car, Command, Input

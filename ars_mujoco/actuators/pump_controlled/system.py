@@ -7,6 +7,7 @@ from types import ModuleType
 
 from ars_mujoco.actuators.pump_controlled import cylinder_stage, full_stage, third_order_stage
 from ars_mujoco.actuators.pump_controlled.file import File, PumpControlled, is_full, is_third_order, released
+from ars_mujoco.actuators.pump_controlled.sizing import SIZING
 from ars_mujoco.actuators.pump_controlled.third_order_stage import FOLLOWS, NAME
 
 
