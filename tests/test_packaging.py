@@ -26,7 +26,7 @@ def installed(tmp_path_factory):
 @pytest.fixture
 def away(installed, tmp_path):
     """Run a command of the installed package in an empty folder, with an empty cache; returns its stdout."""
-    environment = os.environ | {"PYTHONPATH": str(installed), "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    environment = os.environ | {"PYTHONPATH": str(installed)}
     here = tmp_path / "here"
     here.mkdir()
 

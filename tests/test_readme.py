@@ -23,8 +23,12 @@ COMMANDS = [
 LAW, SYSTEM, PROGRAM = [block for language, block in BLOCKS if language == "python"]
 COMPENSATORS, SYSTEM_FILE = [block for language, block in BLOCKS if language == "yaml"]
 
+LONG = ("ars analyze", "ars reproduce")  # whose parts tests/analysis and tests/reproduce run
 
-@pytest.mark.parametrize("command", COMMANDS)
+
+@pytest.mark.parametrize(
+    "command", [pytest.param(each, marks=pytest.mark.slow) if each in LONG else each for each in COMMANDS]
+)
 def test_every_command_of_the_readme_runs(command, tmp_path, monkeypatch):
     if command == "ars bench":
         pytest.skip("a benchmark is run by name: it wants an idle machine")
@@ -35,6 +39,10 @@ def test_every_command_of_the_readme_runs(command, tmp_path, monkeypatch):
     Path("pump.csv").write_text(POINTS)
     result = CliRunner().invoke(app, shlex.split(command)[1:])
     assert result.exit_code == 0, result.output
+
+
+def test_its_long_commands_are_there():
+    assert set(LONG) < set(COMMANDS)
 
 
 def test_the_controller_of_the_readme_keeps_the_car_nearly_level(tmp_path):
