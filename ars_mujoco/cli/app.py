@@ -214,11 +214,14 @@ def _remarks(results) -> Iterator[str]:
 
 
 def _shipped(kind: Listing) -> list[dict[str, str]]:
-    """Name and description of what is shipped of a kind."""
-    return [
-        {"name": name, "description": library.description(path)}
-        for name, path in library.shipped(kind.value.removesuffix("s")).items()
-    ]
+    """Name and description of what is shipped of a kind; of actuators how many values are of which grade."""
+    rows = []
+    for name, path in library.shipped(kind.value.removesuffix("s")).items():
+        rows.append({"name": name, "description": library.description(path)})
+        if kind == Listing.ACTUATORS:
+            counts = library.grades(path)
+            rows[-1]["grades"] = ", ".join(f"{count} {library.GRADES[each]}" for each, count in counts.items())
+    return rows
 
 
 def _channels() -> list[dict[str, str]]:

@@ -4,6 +4,7 @@
 """
 
 import re
+from collections import Counter
 from glob import escape
 from itertools import takewhile
 from pathlib import Path
@@ -20,6 +21,10 @@ SHIPPED = {
     "controller": ("control", "*.yaml"),
     "vehicle": ("mjcf", "*/*.yaml"),
 }
+
+# where a value comes from: the paper's table, another published figure, derived from them, engineering judgement
+GRADES = {"T": "from the paper", "P": "published", "D": "derived", "J": "judged"}
+GRADE = re.compile(rf"^[^#\n]*\S[^#\n]*# ([{''.join(GRADES)}])(?:  |$)", re.MULTILINE)  # beside a value
 
 
 def folder(name: str) -> Path:
@@ -42,6 +47,12 @@ def description(path: Path) -> str:
     comment = takewhile(lambda line: line.startswith("#"), [first, *rest])
     text = " ".join(line.lstrip("# ") for line in comment)
     return re.split(r"\. (?=[A-Z])", text)[0].rstrip(".")
+
+
+def grades(path: Path) -> dict[str, int]:
+    """How many values of a file are of each grade, which the comment beside a value begins with: `# J  reason`."""
+    found = Counter(GRADE.findall(path.read_text()))
+    return {grade: found[grade] for grade in GRADES if found[grade]}
 
 
 def find(kind: str, name_or_path: str | Path, beside: Path | None = None) -> Path:

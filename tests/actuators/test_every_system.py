@@ -1,10 +1,12 @@
 """What holds for every system there is: rest, mirror symmetry, closed books, convergence, restores, its twin."""
 
 import json
+import re
 import subprocess
 import sys
 from functools import cache
 from importlib import import_module
+from pathlib import Path
 from types import ModuleType
 
 import mujoco
@@ -230,6 +232,7 @@ def test_at_rest_it_is_not_beyond_what_is_physical(name):
 LOADED = """
 import json, sys
 from importlib import import_module
+from pathlib import Path
 from ars_mujoco.rigs.rig import rig
 pairs = [rig(name, import_module(system)) for name, system in json.loads(sys.argv[1])]
 print(json.dumps([pair.CALLBACK.compiled.cache_hits for pair in pairs]))
@@ -292,3 +295,13 @@ def test_a_system_that_lacks_a_name_of_the_contract_is_refused(missing):
         del module.FOLLOWS
     with pytest.raises(InputError, match=f"half.py: a system needs {missing}"):
         completed(module)
+
+
+@pytest.mark.parametrize("module", registry.systems().values(), ids=registry.systems())
+def test_its_folder_tells_what_it_is_and_names_tests_that_exist(module):
+    folder, root = Path(module.__file__).parent, Path(__file__).parents[2]
+    text = (folder / "README.md").read_text()
+    assert text.startswith(f"# {folder.name}\n")
+    named = re.findall(r"\btest_\w+\.py", text)
+    assert named and all(list(root.glob(f"tests/**/{each}")) for each in named)
+    assert all((folder / each).is_file() for each in re.findall(r"\b\w+\.yaml", text))
