@@ -34,6 +34,7 @@ class Listing(StrEnum):
     ACTUATORS = "actuators"
     VEHICLES = "vehicles"
     CONTROLLERS = "controllers"
+    PUMPS = "pumps"
     CHANNELS = "channels"
 
 
@@ -214,11 +215,11 @@ def _remarks(results) -> Iterator[str]:
 
 
 def _shipped(kind: Listing) -> list[dict[str, str]]:
-    """Name and description of what is shipped of a kind; of actuators how many values are of which grade."""
+    """Name and description of what is shipped of a kind; of actuators and pumps how many values are of which grade."""
     rows = []
     for name, path in library.shipped(kind.value.removesuffix("s")).items():
         rows.append({"name": name, "description": library.description(path)})
-        if kind == Listing.ACTUATORS:
+        if kind in (Listing.ACTUATORS, Listing.PUMPS):
             counts = library.grades(path)
             rows[-1]["grades"] = ", ".join(f"{count} {library.GRADES[each]}" for each, count in counts.items())
     return rows

@@ -5,21 +5,18 @@ film of oil carries its gears: below some 200 rpm a boundary friction joins the 
 """
 
 import math
+from typing import Any
 
+from pydantic import model_validator
+
+from ars_mujoco.hydraulics.boundary_friction import BoundaryFriction
 from ars_mujoco.hydraulics.loss_polynomial import TorqueLoss, beyond, even_loss
+from ars_mujoco.hydraulics.pump_catalogue import like
 from ars_mujoco.hydraulics.vane_motor import rounded_sign
 from ars_mujoco.kernels.kernel import kernel
-from ars_mujoco.schema.parameters import Parameters, number, quantity
+from ars_mujoco.schema.parameters import Parameters, quantity
 
 FULL = 1.0  # stroke, which eq. 22 has and this pump has not
-
-
-class BoundaryFriction(Parameters):
-    """Friction of dry gears, which fades as speed builds up a film of oil; in shares of the torque loss's norm."""
-
-    share: float = number(ge=0)  # of the norm, at standstill
-    decay_speed: float = quantity("rad/s", gt=0)  # over which it fades by 1/e
-    sign_speed: float = quantity("rad/s", gt=0)  # over which the sign of all losses is rounded
 
 
 class FixedPump(Parameters):
@@ -29,6 +26,11 @@ class FixedPump(Parameters):
     leakage: float = quantity("m^3/s/Pa", ge=0)  # the pump's share of k_Li
     torque_loss: TorqueLoss
     boundary_friction: BoundaryFriction
+
+    @model_validator(mode="before")
+    @classmethod
+    def _is_like(cls, block: Any) -> Any:
+        return like(block, cls.model_fields)
 
 
 @kernel

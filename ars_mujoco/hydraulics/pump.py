@@ -6,6 +6,7 @@ from typing import Any
 from pydantic import model_validator
 
 from ars_mujoco.hydraulics.loss_polynomial import FlowLoss, TorqueLoss, beyond, even_loss, odd_loss
+from ars_mujoco.hydraulics.pump_catalogue import like
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.kernels.saturation import saturate
 from ars_mujoco.schema.parameters import Parameters, quantity
@@ -19,6 +20,11 @@ class Pump(Parameters):
     leakage: float = quantity("m^3/s/Pa", ge=0)  # the pump's share of k_Li
     flow_loss: FlowLoss | None = None  # besides the leakage
     torque_loss: TorqueLoss
+
+    @model_validator(mode="before")
+    @classmethod
+    def _is_like(cls, block: Any) -> Any:
+        return like(block, cls.model_fields)
 
     @model_validator(mode="after")
     def _check_speed(self) -> "Pump":

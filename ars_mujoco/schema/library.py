@@ -20,6 +20,7 @@ SHIPPED = {
     "actuator": ("actuators", "*/*.yaml"),
     "controller": ("control", "*.yaml"),
     "vehicle": ("mjcf", "*/*.yaml"),
+    "pump": ("hydraulics", "pumps/*.yaml"),
 }
 
 # where a value comes from: the paper's table, another published figure, derived from them, engineering judgement
@@ -37,6 +38,14 @@ def shipped(kind: str) -> dict[str, Path]:
     """The shipped files of `kind` by name, in alphabetical order."""
     where, pattern = SHIPPED[kind]
     return {path.stem: path for path in sorted(folder(where).glob(pattern), key=lambda path: path.stem)}
+
+
+def shipped_file(kind: str, name: str) -> Path:
+    """The file of a shipped thing. Raises InputError with the nearest and all names."""
+    known = shipped(kind)
+    if name not in known:
+        raise InputError(f"no {kind} '{name}'{did_you_mean(name, known) or ';'} shipped: {', '.join(known)}")
+    return known[name]
 
 
 def description(path: Path) -> str:

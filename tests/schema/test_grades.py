@@ -5,9 +5,7 @@ from ars_mujoco.schema.library import grades, shipped
 
 def test_the_comments_beside_the_values_are_counted(tmp_path):
     path = tmp_path / "bar.yaml"
-    path.write_text(
-        "# J  not a value\na: 1 m   # T\nb: 2 m  # J  usual\nc: 3 m  # Just a remark\nd: 4 m # J  too\n"
-    )
+    path.write_text("# J  not a value\na: 1 m   # T\nb: 2 m  # J  usual\nc: 3 m  # Just a remark\nd: 4 m # J  too\n")
     assert grades(path) == {"T": 1, "J": 2}
 
 
