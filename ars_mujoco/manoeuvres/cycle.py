@@ -22,7 +22,7 @@ from ars_mujoco.schema.parameters import Parameters, quantity
 from ars_mujoco.schema.units import Unit
 
 Rig = Literal["bench", "roll_plane", "sedan"]
-SHORTEST = 0.001  # s, one physics step
+SHORTEST, LONGEST = 0.001, 3600.0  # s; one physics step, and what one wants to look at
 
 
 class Follow(Parameters):
@@ -137,7 +137,7 @@ class Cycle(Parameters):
     title: str
     description: str
     rig: Rig
-    duration: float = quantity("s", ge=SHORTEST)
+    duration: float = quantity("s", ge=SHORTEST, le=LONGEST)
     manoeuvre: Manoeuvre
     speed: float | None = quantity("m/s", gt=0, default=None, validate_default=True)  # initial and held; of the sedan
     road: Road = Road()
@@ -221,6 +221,6 @@ def with_inputs(inputs: Mapping[str, Any]) -> type[Cycle]:
 
 def _side(side: object) -> float:
     sides = {"left": 1.0, "right": -1.0}
-    if side not in sides:
+    if not isinstance(side, str) or side not in sides:
         raise ValueError("unknown; allowed: left, right")
     return sides[side]

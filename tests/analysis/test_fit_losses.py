@@ -119,7 +119,7 @@ def test_losses_for_another_size_keep_their_coefficients(data, tmp_path):
     [
         ("", "is empty"),
         (HEADER, "holds a header but no points"),
-        (HEADER.replace("bar", "mm"), "pressure: 'mm': wrong unit; allowed: Pa, kPa, MPa or bar"),
+        (HEADER.replace("bar", "mm"), "pressure: 'mm': wrong unit; allowed: Pa, kPa, MPa, bar or psi"),
         (HEADER.replace("speed (rpm)", "speed"), "speed: '': needs a unit"),
         (HEADER.replace("rpm", "rqm"), "speed: 'rqm': unknown unit 'rqm'; did you mean 'rpm'?"),
         (HEADER.replace("torque", "torqe"), r"column 'torque (UNIT)' is missing; did you mean 'torqe'?"),
