@@ -78,7 +78,7 @@ FORMS = ("parentheses", "brackets", "quotes", "second row", "option")
 
 
 @pytest.mark.parametrize(
-    ("units", "form", "locale"), product((EUROPE, AMERICA), FORMS, LOCALES), ids=lambda each: str(each)[:12]
+    ("units", "form", "locale"), list(product((EUROPE, AMERICA), FORMS, LOCALES)), ids=lambda each: str(each)[:12]
 )
 def test_a_table_is_read_right_in_every_spelling(tmp_path, units, form, locale):
     path = tmp_path / "pump.csv"
