@@ -221,6 +221,8 @@ def with_inputs(inputs: Mapping[str, Any]) -> type[Cycle]:
 
 def _side(side: object) -> float:
     sides = {"left": 1.0, "right": -1.0}
-    if not isinstance(side, str) or side not in sides:
+    if not isinstance(side, str):
+        raise ValueError("needs a text; allowed: left, right")
+    if side not in sides:
         raise ValueError("unknown; allowed: left, right")
     return sides[side]

@@ -31,13 +31,16 @@ PLAIN_TAGS = {"tag:yaml.org,2002:" + kind for kind in ("str", "seq", "map")}
 
 @dataclass(frozen=True)
 class Input:
-    """A file as it was used: its validated `value`, `name`, `path`, the `sha256` of its bytes, and the overrides."""
+    """A file as it was used: its validated `value`, `name`, `path`, the `sha256` of its bytes, and the overrides, of
+    which `idle` found the file as they would have it.
+    """
 
     value: Any
     name: str
     path: Path
     sha256: str
     overrides: tuple[str, ...] = ()
+    idle: tuple[str, ...] = ()
 
 
 class Written(str):
@@ -104,10 +107,12 @@ def read(
         raise InputError(f"{_shown(path)}: {error}") from None
     if document.tree == {}:
         raise InputError(f"{_shown(path)}: is empty")
+    before = document.without_overrides(schema) if overrides else None
     for each in overrides:
         document.override(each)
-    texts = tuple(each.text for each in overrides)
-    return Input(document.validate(schema), path.stem, path, hashlib.sha256(found).hexdigest(), texts)
+    value, texts = document.validate(schema), tuple(each.text for each in overrides)
+    idle = tuple(each.text for each in overrides if before and _held(before, each.keys) == _held(value, each.keys))
+    return Input(value, path.stem, path, hashlib.sha256(found).hexdigest(), texts, idle)
 
 
 class Document:
@@ -145,6 +150,13 @@ class Document:
         place.inner[last] = Place(setting.text)
         is_collection = setting.value[:1] in ("[", "{")
         block[last] = Document(setting.text, setting.value).tree if is_collection else setting.value or None
+
+    def without_overrides(self, schema: Any) -> Any:
+        """The tree as `schema`, None where it is none yet; before any override."""
+        try:
+            return TypeAdapter(schema).validate_python(self.tree)
+        except ValidationError:
+            return None
 
     def validate(self, schema: Any) -> Any:
         """The tree as `schema`. Raises InputError with every problem, in the order of the lines."""
@@ -241,6 +253,13 @@ class Document:
             kind = error["ctx"]["discriminator"].strip("'")
             keys, block, value = [*keys, kind], value, value.get(kind)
         return tuple(keys), block, value
+
+
+def _held(value: Any, keys: Iterable[str]) -> Any:
+    """What a block holds at `keys`, itself a default too."""
+    for key in keys:
+        value = value.get(key) if isinstance(value, dict) else getattr(value, key, None)
+    return value
 
 
 def _in_order(origin: int | str) -> tuple[bool, int | str]:

@@ -1,4 +1,4 @@
-"""Whatever a file holds is refused in clear lines, or drives: without a traceback, in time, finite, its books closed."""
+"""Whatever a file holds is refused in clear lines, or drives: no traceback, in time, finite, its books closed."""
 
 import pytest
 from campaign import verdicts

@@ -10,6 +10,7 @@ from ars_mujoco.manoeuvres.cycle import Circle, Cycle, Follow, StepSteer, Straig
 from ars_mujoco.rigs.setup.car import fill_addresses, fill_reference, law_of, torsion
 from ars_mujoco.rigs.setup.start import Start
 from ars_mujoco.rigs.setup.steady_turn import steering_angle, understeer
+from ars_mujoco.schema.errors import ArsError, InputError
 from ars_mujoco.schema.parameters import Parameters, fill
 from ars_mujoco.simulation.simulation import Simulation
 from ars_mujoco.tires.contact import rolling_radius
@@ -53,7 +54,11 @@ def _park(start: Start) -> None:
     simulation = start.stored()
     data = simulation.start()
     with installed(start.rig, simulation.model, data):
-        rest.solve(simulation.model, data)
+        try:
+            rest.solve(simulation.model, data)
+        except ArsError as error:
+            on_bump = "road.bump: a wheel that starts on it finds no stand: " if start.parameters.bump.side else ""
+            raise InputError(f"{on_bump}{error}") from None
 
 
 def _roll_out(start: Start, vehicle: Sedan) -> None:
