@@ -14,8 +14,10 @@ from pydantic import (
     field_validator,
 )
 
+from ars_mujoco.excitation.course import Course
 from ars_mujoco.excitation.excitation import ExcitationOf
 from ars_mujoco.excitation.knots import KnotsOf, signal
+from ars_mujoco.excitation.samples import SamplesOf
 from ars_mujoco.metrics.expectation import Limit, limits
 from ars_mujoco.roads import bump as road
 from ars_mujoco.schema.parameters import Parameters, quantity
@@ -25,12 +27,19 @@ Rig = Literal["bench", "roll_plane", "sedan"]
 SHORTEST, LONGEST = 0.001, 3600.0  # s; one physics step, and what one wants to look at
 
 
+class LateralAcceleration(Course):
+    """The lateral acceleration of a path over time."""
+
+    knots: KnotsOf("m/s^2").model_fields["knots"].annotation | None = None
+    recorded: SamplesOf("m/s^2") | None = None  # a table of times and values
+
+
 class Follow(Parameters):
     """The driver follows a path of the curvature lateral acceleration over speed squared."""
 
     rig: ClassVar[Rig] = "sedan"
     kind: Literal["follow"]
-    lateral_acceleration: KnotsOf("m/s^2")
+    lateral_acceleration: LateralAcceleration
     speed: KnotsOf("m/s", gt=0) | None = None  # where it changes; else the cycle's
 
 

@@ -105,7 +105,7 @@ def read_inputs(
     system = system_for(parts["actuator"].value)
     if driven.value.inputs and is_active(system) and not system.INPUTS:
         raise InputError(f"inputs: the actuator '{parts['actuator'].name}' takes none")
-    if taken := system.INPUTS or (driven.value.inputs and _own_inputs(driven, overrides)):
+    if taken := system.INPUTS or (driven.value.inputs and _inputs_of_its_actuator(driven, overrides)):
         driven = read(with_inputs(taken), cycle, "cycle", own_settings)
     check_met(driven.value)
     commanded = law if is_active(system) else None
@@ -164,7 +164,7 @@ def read_compared(
     return runs, references
 
 
-def _own_inputs(driven: Input, overrides: list[Override]) -> Mapping[str, Any]:
+def _inputs_of_its_actuator(driven: Input, overrides: list[Override]) -> Mapping[str, Any]:
     """What the cycle's own actuator takes besides commands, for one that takes none to be held against."""
     try:
         own, _ = _read_actuator(driven.value.actuator, [], _folder("actuator", driven, overrides))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ars_mujoco.bridge.callback import installed
+from ars_mujoco.bridge.callback import installed, tables_of
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.driving.driver import Driver
 from ars_mujoco.excitation.knots import signal
@@ -35,7 +35,11 @@ def set_up(cycle: Cycle, actuator: Parameters, controller: Controller, vehicle: 
     parameters.cg_height = vehicle.sprung.cg_height
     if cycle.road.bump:
         fill(parameters.bump, cycle.road.bump)
-    _park(start)
+    try:
+        _park(start)
+    except ArsError as error:
+        on_bump = "road.bump: a wheel that starts on it finds no stand: " if cycle.road.bump else ""
+        raise InputError(f"{on_bump}{error}") from None
     parameters.speed = cycle.speed_signal()
     _roll_out(start, vehicle)
     _let_drive(start, cycle)
@@ -54,11 +58,7 @@ def _park(start: Start) -> None:
     simulation = start.stored()
     data = simulation.start()
     with installed(start.rig, simulation.model, data):
-        try:
-            rest.solve(simulation.model, data)
-        except ArsError as error:
-            on_bump = "road.bump: a wheel that starts on it finds no stand: " if start.parameters.bump.side else ""
-            raise InputError(f"{on_bump}{error}") from None
+        rest.solve(simulation.model, data)
 
 
 def _roll_out(start: Start, vehicle: Sedan) -> None:
@@ -82,7 +82,10 @@ def _let_drive(start: Start, cycle: Cycle) -> None:
         parameters.demand = signal([manoeuvre.start, manoeuvre.start + manoeuvre.ramp], [0.0, angle], "linear")
         parameters.driver.open_loop = 1.0
     else:
-        parameters.demand = _path(manoeuvre)
+        if isinstance(manoeuvre, Follow) and manoeuvre.lateral_acceleration.is_sampled:
+            tables_of(start.rig, start.simulation.model).demand = manoeuvre.lateral_acceleration.samples()
+        else:
+            parameters.demand = _path(manoeuvre)
         parameters.demand_over_speed = isinstance(manoeuvre, Follow)
 
 
