@@ -49,7 +49,7 @@ def fill_reference(start: Start, controller: Controller, vehicle: RollPlane | Se
     if is_active(start.rig.system):
         try:
             table = reference_map(model, vehicle, reference.target, reference.front_share)
-        except ArsError as error:
+        except (ArsError, np.linalg.LinAlgError, ArithmeticError) as error:
             raise InputError(f"controller.reference.target: this vehicle does not hold it: {error}") from None
         if not (np.diff(table.reading) > 0.0).all():
             raise InputError(
