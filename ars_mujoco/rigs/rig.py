@@ -14,14 +14,14 @@ import numpy as np
 
 from ars_mujoco.actuators import bar_plots, bars
 from ars_mujoco.actuators.system import NOTHING, completed, is_active
-from ars_mujoco.bridge.callback import SIGNATURE, fields, record_at, tables_address, world_address
+from ars_mujoco.bridge.mjdata import SIGNATURE, fields, record_at, tables_address, world_address
 from ars_mujoco.bridge.world import layout_version, world_dtype
 from ars_mujoco.control import control_unit
 from ars_mujoco.control.control_unit import COMMAND_LINE, ControlUnit
 from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.excitation import knots
 from ars_mujoco.excitation.knots import SIGNAL
-from ars_mujoco.kernels.kernel import NativeCallback, entry
+from ars_mujoco.kernels.kernel import NativeCallback
 from ars_mujoco.rigs.plots import RigPlots
 from ars_mujoco.schema.channels import Channel, channels
 from ars_mujoco.schema.events import Condition
@@ -139,14 +139,14 @@ class Rig:
         return NativeCallback(SIGNATURE, self._native("step"))
 
     @cached_property
-    def native_sense(self) -> Callable:
+    def SENSE(self) -> NativeCallback:  # noqa: N802 (as CALLBACK)
         """`sense`, compiled, for mjModel and mjData at addresses."""
-        return entry(self._native("sense"))
+        return NativeCallback(SIGNATURE, self._native("sense"))
 
     @cached_property
-    def native_act(self) -> Callable:
+    def ACT(self) -> NativeCallback:  # noqa: N802 (as CALLBACK)
         """`act`, compiled, for mjModel and mjData at addresses."""
-        return entry(self._native("act"))
+        return NativeCallback(SIGNATURE, self._native("act"))
 
     def _native(self, kernel: str) -> FunctionType:
         """A copy of `_entry` with this pair's globals, under a name of its own."""
