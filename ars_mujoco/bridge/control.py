@@ -25,7 +25,9 @@ _STEP, _STATUS = (HEADER.names.index(name) for name in ("step", "status"))
 
 class Control(NamedTuple):
     """C functions void(mjModel*, mjData*): `callback`, and where `law` is not 0, it at the samples of the control unit
-    and then `act`. `sample_time` is where userdata holds the unit's. In the interpreted twin `callback` is a Python function.
+    and then `act`. `sample_time` is where userdata holds the unit's.
+
+    In the interpreted twin `callback` is a Python function.
     """
 
     callback: object

@@ -8,11 +8,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib import import_module
+from pathlib import Path
 from types import FunctionType, ModuleType
 
 import numpy as np
 
 from ars_mujoco.actuators import bar_plots, bars
+from ars_mujoco.actuators.registry import system_named
 from ars_mujoco.actuators.system import NOTHING, completed, is_active
 from ars_mujoco.bridge.mjdata import SIGNATURE, fields, record_at, tables_address, world_address
 from ars_mujoco.bridge.world import layout_version, world_dtype
@@ -93,6 +95,9 @@ class Rig:
         self.TABLES_SIZE = self.TABLES.itemsize // 8
         self.world_at, self.tables_at = record_at(self.WORLD), record_at(self.TABLES)
 
+    def __reduce__(self):
+        return _rig_of, (self.NAME, self.system.__name__, self.system.__file__)
+
     @cached_property
     def channels(self) -> dict[str, Channel]:
         """Every recorded signal by name, in the order of the record."""
@@ -158,6 +163,11 @@ class Rig:
         made = FunctionType(_entry.__code__, {**_entry.__globals__, **own}, name)
         made.__qualname__ = name
         return made
+
+
+def _rig_of(name: str, system: str, file: str) -> Rig:
+    """The rig of that name in another process."""
+    return rig(name, system_named(system, Path(file)))
 
 
 def _entry(model, data):
