@@ -22,8 +22,8 @@ NUMERIC = "ars_mujoco_world"  # the custom numeric that holds the initial world
 TABLES = "ars_mujoco_tables"  # and the one before it, with what is only read
 
 # status of a run, written by the callback and turned into an error by the loop
-RUNNING, TIME_JUMP, NOT_FINITE, LAW_FAILED, OTHER_LAYOUT, BURST, LAW_NOT_FINITE, LEFT_BEHIND = range(8)
-OF_THE_LAW = (LAW_FAILED, LAW_NOT_FINITE)
+RUNNING, TIME_JUMP, NOT_FINITE, LAW_FAILED, OTHER_LAYOUT, BURST, LAW_ASTRAY, LEFT_BEHIND = range(8)
+OF_THE_LAW = (LAW_FAILED, LAW_ASTRAY)
 
 HEADER = np.dtype(
     [

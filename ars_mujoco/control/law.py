@@ -11,7 +11,6 @@ What it keeps besides, as an object that is called or a module's variables, belo
 afresh for each, those that set the car up among them. Only what `memory` holds is restored with a state.
 """
 
-import math
 import random
 import warnings
 from collections.abc import Iterator
@@ -24,10 +23,10 @@ from numba import carray
 
 from ars_mujoco.bridge import mujoco_layout
 from ars_mujoco.bridge.mjdata import SIGNATURE, doubles, record_at, word
-from ars_mujoco.bridge.world import LAW_FAILED, LAW_NOT_FINITE, place, stop_in
+from ars_mujoco.bridge.world import LAW_ASTRAY, LAW_FAILED, place, stop_in
 from ars_mujoco.control.law_fault import compilers_reason, takes_two
 from ars_mujoco.control.law_module import SEED, loaded
-from ars_mujoco.control.law_run import LawRun
+from ars_mujoco.control.law_run import MOST, LawRun
 from ars_mujoco.control.reference import ANGLE, STATE, TORQUE, put
 from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.kernels.kernel import JIT_OPTIONS, NativeCallback, entry, interpreted, kernel
@@ -102,9 +101,8 @@ class _Compiled:
         self._made: dict[object, NativeCallback] = {}
 
     def sampling(self, rig, gives: int) -> NativeCallback:
-        if (rig, gives) not in self._made:
-            self._made[rig, gives] = _sampling(rig, gives, self._command)
-        return self._made[rig, gives]
+        made = self._made.get((rig, gives)) or _sampling(rig, gives, self._command)
+        return self._made.setdefault((rig, gives), made)  # the one of another thread, where that was quicker
 
 
 _by_program: dict[str, _Compiled] = {}  # of this process, by the digest of the function
@@ -148,6 +146,7 @@ def _two_floats(function, is_cached: bool = True):
 def _sampling(rig, gives: int, command) -> NativeCallback:
     """A C function void(mjModel*, mjData*) that takes a sample of `rig` by `command`; nothing of the rig is in it."""
     sensors_at, kept_at = (8 * place(rig.WORLD, *names) for names in (("scratch", "sensors"), ("later", "reference")))
+    most = MOST[gives]
 
     def sample(model, data):
         world = word(data + _USERDATA)
@@ -156,8 +155,8 @@ def _sampling(rig, gives: int, command) -> NativeCallback:
         try:
             front, rear = command(sensors, kept.memory)
             put(kept, gives, front, rear)
-            if not (math.isfinite(front) and math.isfinite(rear)):
-                stop_in(userdata, LAW_NOT_FINITE, sensors.time)
+            if not (abs(front) <= most and abs(rear) <= most):  # NaN is not
+                stop_in(userdata, LAW_ASTRAY, sensors.time)
         except Exception:  # all that compiled code can catch; the same in Python tells the reason
             stop_in(userdata, LAW_FAILED, sensors.time)
 

@@ -1,6 +1,7 @@
 """A law in one run: what it keeps of its own there, its calls from Python, and what went wrong in them."""
 
 import ctypes
+import warnings
 from collections.abc import Callable
 from math import isfinite
 from typing import Any
@@ -9,7 +10,7 @@ import numpy as np
 
 from ars_mujoco.bridge import mujoco_layout
 from ars_mujoco.bridge.mujoco_functions import C_FUNCTION
-from ars_mujoco.bridge.world import LAW_FAILED, LAW_NOT_FINITE, place, stop_in
+from ars_mujoco.bridge.world import LAW_ASTRAY, LAW_FAILED, place, stop_in
 from ars_mujoco.control.control_unit import samples_now
 from ars_mujoco.control.law_fault import no_pair, told
 from ars_mujoco.control.reference import ANGLE, TORQUE
@@ -17,6 +18,9 @@ from ars_mujoco.control.sensors import MEMORY, SENSORS, Readings
 
 _USERDATA = mujoco_layout.offsets("mjData")["userdata"]
 KEPT = {ANGLE: ("front", "rear"), TORQUE: ("front_torque", "rear_torque")}  # where the reference keeps what a law gives
+MOST = {ANGLE: 100.0, TORQUE: 1e6}  # rad, Nm; no bar turns or pushes so far, and the actuator's limit would hide it
+MAYBE_DEGREES = "what it returns is in rad: does it give degrees?"
+RADIAN = 1.0  # rad; no bar's angle, but what an angle in degrees soon is
 
 
 class LawRun:
@@ -52,7 +56,8 @@ class LawRun:
 
     def _sampling(self, rig, userdata: np.ndarray) -> Callable[[], None]:
         first = place(rig.WORLD, "scratch", "sensors")
-        at, front, rear = (place(rig.WORLD, "later", "reference", name) for name in ("memory", *KEPT[self.law.gives]))
+        at, (front, rear) = place(rig.WORLD, "later", "reference", "memory"), self.slots(rig)
+        most = MOST[self.law.gives]
         sensors, memory = userdata[first : first + len(SENSORS)], userdata[at : at + MEMORY]
 
         def sample() -> None:
@@ -62,9 +67,9 @@ class LawRun:
                 asked = self._asked(readings, memory)
                 if asked:
                     userdata[front], userdata[rear] = asked
-                    if isfinite(asked[0]) and isfinite(asked[1]):
+                    if abs(asked[0]) <= most and abs(asked[1]) <= most:  # NaN is not
                         return
-                    status = LAW_NOT_FINITE
+                    status = LAW_ASTRAY
             except BaseException as error:  # whatever a user's code raises; C code cannot hand it on
                 self.fault = told(error, self.law.path)
                 if isinstance(error, KeyboardInterrupt):
@@ -83,14 +88,31 @@ class LawRun:
             self.fault = no_pair(result)
             return None
 
+    def slots(self, rig) -> list[int]:
+        """Where userdata holds what the law gave last, front and rear."""
+        return [place(rig.WORLD, "later", "reference", name) for name in KEPT[self.law.gives]]
+
+    def remark(self, asked: np.ndarray) -> None:
+        """Warn where angles `asked` (n, 2) look like degrees."""
+        size = np.abs(asked)
+        if self.law.gives == ANGLE and ((size > RADIAN) & (size <= MOST[ANGLE])).any():
+            warnings.warn(
+                f"{self.law.path}: the controller asks for bar angles over {np.degrees(RADIAN):.0f} deg; "
+                f"{MAYBE_DEGREES}",
+                stacklevel=2,
+            )
+
     def explained(self, world) -> str:
         """What went wrong, from the world it went wrong in; of compiled code, what the same does in Python."""
         reference, header, gives = world.later.reference, world.header, self.law.gives
-        if header.status == LAW_NOT_FINITE:
+        if header.status == LAW_ASTRAY:
             asked = zip(("front", "rear"), (float(reference[name]) for name in KEPT[gives]), strict=True)
-            of = "angle" if gives == ANGLE else "torque"
-            wrong = [f"{value:g} for the {bar} bar's {of}" for bar, value in asked if not isfinite(value)]
-            return f"{self.law.path}: the controller returned {' and '.join(wrong)} at {header.status_time:g} s"
+            quantity, unit = ("angle", "rad") if gives == ANGLE else ("torque", "Nm")
+            wrong = [
+                f"{value:g} for the {bar} bar's {quantity}" for bar, value in asked if not abs(value) <= MOST[gives]
+            ]
+            returned = f"{self.law.path}: the controller returned {' and '.join(wrong)} at {header.status_time:g} s"
+            return f"{returned}; allowed: up to {MOST[gives]:g} {unit}"
         fault = self.fault or self._fault_in_python(world)
         return f"{self.law.path}: the controller failed at {header.status_time:g} s: {fault}"
 

@@ -23,7 +23,7 @@ from ars_mujoco.control.control_unit import COMMAND_LINE, ControlUnit
 from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.excitation import knots
 from ars_mujoco.excitation.knots import SIGNAL
-from ars_mujoco.kernels.kernel import NativeCallback
+from ars_mujoco.kernels.kernel import NativeCallback, once
 from ars_mujoco.rigs.plots import RigPlots
 from ars_mujoco.schema.channels import Channel, channels
 from ars_mujoco.schema.events import Condition
@@ -52,14 +52,23 @@ class Frame:
     tables: Sequence[tuple] = (("nothing", "f8"),)  # what is only read, and lies in the model
 
 
-@cache
 def rig(name: str, system: ModuleType) -> "Rig":
     """The rig `name` with `system`, a module under the contract of `actuators.system`; made once."""
+    with once.lock:
+        return _rig(name, system)
+
+
+@cache
+def _rig(name: str, system: ModuleType) -> "Rig":
     return Rig(import_module(f"ars_mujoco.rigs.{name}").FRAME, completed(system))
 
 
 class Rig:
-    """A Frame with a system in it. The interpreted twins of its entries are `step`, `sense` and `act`."""
+    """A Frame with a system in it.
+
+    CALLBACK, SENSE and ACT are its entries, C functions of mjModel and mjData at addresses; the interpreted twins of what
+    they call are `step`, `sense` and `act`.
+    """
 
     def __init__(self, frame: Frame, system: ModuleType):
         self.frame, self.system, self.NAME = frame, system, frame.name
@@ -94,6 +103,10 @@ class Rig:
         self.SIZE, self.VERSION = self.WORLD.itemsize // 8, layout_version(self.WORLD)
         self.TABLES_SIZE = self.TABLES.itemsize // 8
         self.world_at, self.tables_at = record_at(self.WORLD), record_at(self.TABLES)
+        # compiled when their addresses are asked for; made here, as two threads must not each make one
+        self.CALLBACK, self.SENSE, self.ACT = (
+            NativeCallback(SIGNATURE, self._native(kernel)) for kernel in ("step", "sense", "act")
+        )
 
     def __reduce__(self):
         return _rig_of, (self.NAME, self.system.__name__, self.system.__file__)
@@ -137,21 +150,6 @@ class Rig:
     def act(self, world, mj, tables) -> None:
         """Write the forces of this step into MuJoCo, by the commands in the world."""
         self.frame.act(world, mj, tables, self.system)
-
-    @cached_property
-    def CALLBACK(self) -> NativeCallback:  # noqa: N802 (the compiled `step`)
-        """`step`, compiled, for mjModel and mjData at addresses."""
-        return NativeCallback(SIGNATURE, self._native("step"))
-
-    @cached_property
-    def SENSE(self) -> NativeCallback:  # noqa: N802 (as CALLBACK)
-        """`sense`, compiled, for mjModel and mjData at addresses."""
-        return NativeCallback(SIGNATURE, self._native("sense"))
-
-    @cached_property
-    def ACT(self) -> NativeCallback:  # noqa: N802 (as CALLBACK)
-        """`act`, compiled, for mjModel and mjData at addresses."""
-        return NativeCallback(SIGNATURE, self._native("act"))
 
     def _native(self, kernel: str) -> FunctionType:
         """A copy of `_entry` with this pair's globals, under a name of its own."""

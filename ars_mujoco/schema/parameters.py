@@ -55,7 +55,7 @@ def choice(*names: str, default: Any = PydanticUndefined) -> Any:
 
 
 def _blank(made_by: Callable[[], type]) -> Any:
-    made = made_by()
+    made: Any = made_by()
     return made.__new__(made)
 
 

@@ -23,7 +23,8 @@ class Sampler:
         self.model, self.data, self.empty = model, data, empty
         self.control = control_of(rig, model, data, law)
         self.stride = max(round(FRAME / model.opt.timestep), 1)  # steps a frame
-        self.slots = rig.slots  # where userdata holds the channels
+        # where userdata holds the channels, and behind them what a law gave
+        self.law, self.slots = law, np.append(rig.slots, law.slots(rig)) if law else rig.slots
         self.taken = 0  # samples so far
 
     def steps(self, count: int) -> Recording:
@@ -39,12 +40,15 @@ class Sampler:
         record = Record(times, values, poses, self.slots, self.stride)
         with withheld():
             made = advance(self.model, self.data, self.control, record, self.taken, last)
+        if self.law:
+            self.law.remark(values[:made, len(self.empty.channels) :])
+            values = np.ascontiguousarray(values[:, : len(self.empty.channels)])
         return self._chunk(times[:made], values[:made], poses)
 
     def _room(self, count: int):
         """Arrays for `count` samples: times, values, and the poses of the frames among them."""
         frames = len(range(-self.taken % self.stride, count, self.stride))
-        return np.empty(count), np.empty((count, len(self.empty.channels))), np.empty((frames, self.model.nbody, 7))
+        return np.empty(count), np.empty((count, len(self.slots))), np.empty((frames, self.model.nbody, 7))
 
     def _chunk(self, times, values, poses) -> Recording:
         framed = times[-self.taken % self.stride :: self.stride]

@@ -1,6 +1,8 @@
 """A user's own controller: one Python function in a file."""
 
+import importlib
 import math
+import sys
 import warnings
 
 import numpy as np
@@ -35,6 +37,7 @@ def command(sensors, memory):
     wave = math.sin(9.0 * sensors.time)
     return 300.0 * wave, -200.0 * wave
 """
+PUSHED = "manoeuvre.acceleration={knots: [[0.1 s, 0 m/s^2], [0.3 s, 6 m/s^2]]}"
 FOLLOWERS = ["pump_controlled", "electromechanical"]  # of an angle, of a torque
 SLOW = r"slow.py: command\(\) does not compile, so it runs in Python: No implementation.* \(line 3\)"
 NOT_COMPILED = HOLD.replace("memory[0] += 1.0", "memory[0] += float(str(1))")
@@ -63,10 +66,10 @@ def test_its_angles_are_what_the_bars_are_commanded(law):
 
 
 def test_it_is_called_once_a_sample_and_its_memory_stays(law):
-    path = law("def command(sensors, memory):\n    memory[0] += 1.0\n    return 0.001 * memory[0], sensors.time\n")
+    path = law("def command(sensors, memory):\n    memory[0] += 1.0\n    return 1e-4 * memory[0], 0.1 * sensors.time\n")
     recording = drive(path, "controller.unit.sample_time=5 ms")
-    assert recording["front.bar.command"][1] == 0.001
-    np.testing.assert_allclose(recording["front.bar.command"][:100:5], 0.001 * np.arange(1, 21), rtol=1e-12)
+    assert recording["front.bar.command"][1] == 1e-4
+    np.testing.assert_allclose(recording["front.bar.command"][:100:5], 1e-4 * np.arange(1, 21), rtol=1e-12)
     held = recording["rear.bar.command"][:100].reshape(-1, 5)
     assert (held == held[:, :1]).all()
 
@@ -208,7 +211,7 @@ def test_a_fault_beside_the_law_is_told_with_its_place(law, tmp_path):
     ("result", "told"),
     [
         ("math.inf * sensors.time, math.inf", "nan for the front bar's angle and inf for the rear bar's angle at 0 s"),
-        ("1e308 * (1.0 + 9.0 * (sensors.time > 0.0995)), 0.0", "inf for the front bar's angle at 0.1 s"),
+        ("1e-8 * 1e308 ** (sensors.time > 0.0995), 0.0", "1e+300 for the front bar's angle at 0.1 s"),
         ("0.0, -math.inf", "-inf for the rear bar's angle at 0 s"),
     ],
 )
@@ -217,7 +220,131 @@ def test_a_law_that_returns_what_is_not_finite_stops_the_run(law, in_python, res
     path = law(f"import math\ndef command(sensors, memory):\n{in_python}    return {result}\n")
     with pytest.raises(SimulationError) as error:
         drive(path, cycle="roll_plane_step")
-    assert str(error.value) == f"{path}: the controller returned {told}"
+    assert str(error.value) == f"{path}: the controller returned {told}; allowed: up to 100 rad"
+
+
+def test_a_torque_that_no_bar_can_give_stops_the_run(law):
+    path = law("GIVES = 'torque'\ndef command(sensors, memory):\n    return 0.0, -2e6\n")
+    with pytest.raises(
+        SimulationError, match="returned -2e\\+06 for the rear bar's torque at 0 s; allowed: up to 1e\\+06 Nm"
+    ):
+        drive(path, cycle="roll_plane_step")
+
+
+def test_degrees_in_place_of_radians_get_a_remark(law):
+    """In a turn to 6 m/s^2 the bars are asked for 5 deg; as radians that is 286."""
+    path = law("def command(sensors, memory):\n    return 0.825 * sensors.lateral_acceleration, 0.0\n")
+    with pytest.warns(
+        UserWarning, match="law.py: the controller asks for bar angles over 57 deg; .* does it give degrees"
+    ):
+        drive(path, "duration=1 s", PUSHED, cycle="roll_plane_step")
+
+
+def test_a_law_within_reason_gets_none(law):
+    path = law("def command(sensors, memory):\n    return 0.0144 * sensors.lateral_acceleration, 0.0\n")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        drive(path, "duration=1 s", PUSHED, cycle="roll_plane_step")
+
+
+# ---- a module like any other, and a new one for every run
+
+
+@pytest.mark.filterwarnings("ignore:.*does not compile")
+def test_a_law_with_state_of_its_own_is_the_law_with_memory(law, tmp_path):
+    """The car's set-up drives it in two turns before, and each run begins anew."""
+    law("""
+class Integrator:
+    sum = 0.0
+
+    def __call__(self, sensors, memory):
+        self.sum += sensors.lateral_acceleration * sensors.step
+        return 0.012 * sensors.lateral_acceleration + 0.004 * self.sum, 0.008 * sensors.lateral_acceleration
+
+command = Integrator()
+""")
+    other = tmp_path / "memory.py"
+    other.write_text("""
+def command(sensors, memory):
+    memory[0] += sensors.lateral_acceleration * sensors.step
+    return 0.012 * sensors.lateral_acceleration + 0.004 * memory[0], 0.008 * sensors.lateral_acceleration
+""")
+    own, kept = (
+        simulation_of(read_inputs("step_steer_iso7401", controller=str(path), settings=["duration=1.5 s"]))
+        for path in (tmp_path / "law.py", other)
+    )
+    assert (own.law.is_native, kept.law.is_native) == (False, True)
+    values = simulate(kept).values
+    for _ in range(2):
+        np.testing.assert_array_equal(simulate(own).values, values)
+
+
+@pytest.mark.filterwarnings("ignore:.*does not compile")
+def test_modules_beside_it_dataclasses_and_globals_work_and_begin_anew(law, tmp_path):
+    (tmp_path / "counting.py").write_text("calls = 0\n")
+    path = law("""
+from __future__ import annotations
+from dataclasses import dataclass, field
+import counting
+
+@dataclass
+class Gains:
+    front: float = 1e-3
+    past: list[float] = field(default_factory=list)
+
+gains, total = Gains(), 0
+
+def command(sensors, memory):
+    import counting as again
+    global total
+    total += 1
+    again.calls += 1
+    gains.past.append(sensors.time)
+    assert total == counting.calls == len(gains.past)
+    return gains.front * total, 0.0
+""")
+    for _ in range(2):
+        recording = drive(path, cycle="roll_plane_step")
+        assert recording["front.bar.command"][9] == pytest.approx(1e-2)
+    assert "counting" not in sys.modules and str(tmp_path) not in sys.path
+
+
+@pytest.mark.filterwarnings("ignore:.*does not compile")
+def test_a_module_that_the_program_has_loaded_itself_is_not_the_laws(law, tmp_path, monkeypatch):
+    (tmp_path / "shared_gain.py").write_text("gain = 1e-3\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    module = importlib.import_module("shared_gain")
+    module.gain = 7.0
+    path = law("import shared_gain\n\ndef command(sensors, memory):\n    return shared_gain.gain * len(str(1)), 0.0\n")
+    assert drive(path, cycle="roll_plane_step")["front.bar.command"][5] == 1e-3
+    assert sys.modules.pop("shared_gain") is module
+
+
+@pytest.mark.filterwarnings("ignore:.*does not compile")
+def test_what_a_law_keeps_of_its_sensors_stays_as_it_was(law):
+    path = law("""
+past = []
+
+def command(sensors, memory):
+    past.append(sensors)
+    return past[-1].time - past[max(len(past) - 11, 0)].time, 0.0
+""")
+    assert drive(path, cycle="roll_plane_step")["front.bar.command"][100] == pytest.approx(0.01)
+
+
+def test_it_runs_as_it_was_read_whatever_becomes_of_its_file(law):
+    path = law("def command(sensors, memory):\n    str(sensors)\n    return 0.05, 0.0\n")
+    with pytest.warns(UserWarning, match="does not compile"):
+        simulation = simulation_of(read_inputs("roll_plane_step", controller=str(path), settings=["duration=0.1 s"]))
+    law("def command(sensors, memory):\n    str(sensors)\n    return 0.01, 0.0\n")
+    assert simulate(simulation)["front.bar.command"][-1] == 0.05
+
+
+@pytest.mark.filterwarnings("ignore:.*does not compile")
+def test_an_interruption_by_the_keyboard_goes_through(law):
+    path = law("def command(sensors, memory):\n    str(sensors)\n    raise KeyboardInterrupt\n")
+    with pytest.raises(KeyboardInterrupt):
+        drive(path, cycle="roll_plane_step")
 
 
 @pytest.mark.filterwarnings("ignore:.*does not compile")
