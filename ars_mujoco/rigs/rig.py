@@ -66,8 +66,8 @@ def _rig(name: str, system: ModuleType) -> "Rig":
 class Rig:
     """A Frame with a system in it.
 
-    CALLBACK, SENSE and ACT are its entries, C functions of mjModel and mjData at addresses; the interpreted twins of what
-    they call are `step`, `sense` and `act`.
+    CALLBACK, SENSE and ACT are its entries, C functions of mjModel and mjData at addresses; their interpreted twins are
+    `step`, `sense` and `act`.
     """
 
     def __init__(self, frame: Frame, system: ModuleType):
