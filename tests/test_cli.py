@@ -63,6 +63,26 @@ def test_every_listed_channel_has_a_unit_and_a_description(ars):
     assert all(each["unit"] and each["description"] for each in channels)
 
 
+def test_the_sensors_of_a_controller_in_python_are_listed_with_unit_and_meaning(ars):
+    from ars_mujoco.control.sensors import SENSORS
+
+    sensors = json.loads(ars("list", "sensors", "--json")[1])["sensors"]
+    assert [each["name"] for each in sensors] == list(SENSORS.names)
+    assert all(each["unit"] and each["description"] for each in sensors)
+
+
+@pytest.mark.parametrize("kept", ["", "    str(sensors)\n"])
+def test_what_a_controller_prints_stands_beside_the_results(ars, tmp_path, kept):
+    """While it is loaded and while it runs, compiled or in Python."""
+    command = f"def command(sensors, memory):\n{kept}    print('sample', sensors.time)\n    return 0.0, 0.0\n"
+    (tmp_path / "law.py").write_text(f"print('loaded')\n{command}")
+    arguments = ("run", "roll_plane_step", "--controller", "law.py", "--set", "duration=2 ms", "--json")
+    status, out, err = ars(*arguments)
+    assert status == 0
+    assert "runs" in json.loads(out)
+    assert "loaded" in err and "sample 0.0" in err and "sample 0.001" in err
+
+
 def test_listing_does_not_load_what_it_does_not_need():
     loaded = "import sys; from ars_mujoco.cli import app as cli; cli._shipped(cli.Listing.CYCLES); print(*sys.modules)"
     modules = subprocess.run([sys.executable, "-c", loaded], capture_output=True, text=True, check=True).stdout.split()

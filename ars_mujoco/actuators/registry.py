@@ -51,6 +51,11 @@ def own_system(path: Path) -> ModuleType:
     return _own_system(path.resolve(), path.read_bytes())
 
 
+def system_named(name: str, path: Path) -> ModuleType:
+    """The system that is a module of this name, a user's own in the file `path`."""
+    return import_module(name) if name.startswith("ars_mujoco.") else own_system(path)
+
+
 def system_for(file: Parameters) -> ModuleType:
     """The module that runs `file`, an instance of a system's File."""
     return system_of(module_of(file), file)

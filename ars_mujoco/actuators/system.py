@@ -34,6 +34,7 @@ Host functions:
     start(record, state)            writes STATE at rest
     variant(file) -> module         the module that runs this very file, where a kind has several layouts (optional)
     released(file) -> file          the same with its motor free to turn, for the bench (optional)
+    held_at(file) -> {axle: angle}  the angle (rad) of each bar that a command beyond it is held at (optional)
 """
 
 from collections import namedtuple

@@ -1,214 +1,132 @@
-"""The bridge to MuJoCo: a rig's step, compiled to a C function and installed as `mjcb_control`.
+"""The bridge to MuJoCo for who steps by himself, in a loop of his own, a batch or the viewer: a rig as `mjcb_control`.
 
     mj_step ─> mjcb_control(m, d) ─> mjData fields + the world in userdata ─> rig.step ─> forces in mjData
 
-The native callback takes no interpreter lock, so it also runs under `mujoco.batch.Batch` and in the viewer. The twin
-for debugging (NUMBA_DISABLE_JIT=1) runs the same `rig.step` from Python.
+The native callback takes no interpreter lock, so it also runs under `mujoco.batch.Batch`. What goes wrong is a status
+in the world, as a run's own loop reads it; here it is told as a warning when it happens.
 """
 
 import contextlib
 import ctypes
-from collections import namedtuple
+import os
+import threading
+import warnings
 
 import mujoco
 import numpy as np
-from llvmlite import ir
-from numba import carray, from_dtype, types
-from numba.extending import intrinsic
+from numba import carray
 
 from ars_mujoco.bridge import mujoco_layout
-from ars_mujoco.bridge.world import HEADER, MAGIC, OTHER_LAYOUT, stop
-from ars_mujoco.kernels.kernel import interpreted, kernel
+from ars_mujoco.bridge.control import Control, control_of, run
+from ars_mujoco.bridge.engine_warnings import withheld
+from ars_mujoco.bridge.mjdata import SIGNATURE, call, doubles, integers, word
+from ars_mujoco.bridge.mujoco_functions import C_FUNCTION
+from ars_mujoco.bridge.world import BURST, HEADER, MAGIC, NOT_FINITE, OTHER_LAYOUT, RUNNING, TIME_JUMP
+from ars_mujoco.kernels.kernel import NativeCallback, kernel
 from ars_mujoco.schema.errors import ArsError
 
-# the fields of mjData a rig reads and writes, flat float64 arrays
-Fields = namedtuple(
-    "Fields", "time qpos qvel ctrl qfrc_applied xfrc_applied mocap_pos xpos xmat site_xpos xanchor xaxis"
-)
-
-SIGNATURE = types.void(types.intp, types.intp)  # mjModel*, mjData*
-
-_DATA = mujoco_layout.offsets("mjData")
-_MODEL = mujoco_layout.offsets("mjModel")
-_TIME, _USERDATA = _DATA["time"], _DATA["userdata"]
-_QPOS, _QVEL, _CTRL = _DATA["qpos"], _DATA["qvel"], _DATA["ctrl"]
-_QFRC, _XFRC, _MOCAP = _DATA["qfrc_applied"], _DATA["xfrc_applied"], _DATA["mocap_pos"]
-_XPOS, _XMAT, _SITE = _DATA["xpos"], _DATA["xmat"], _DATA["site_xpos"]
-_XANCHOR, _XAXIS = _DATA["xanchor"], _DATA["xaxis"]
-_NUSERDATA, _NNUMERICDATA, _NUMERIC = _MODEL["nuserdata"], _MODEL["nnumericdata"], _MODEL["numeric_data"]
+_DATA, _MODEL = mujoco_layout.offsets("mjData"), mujoco_layout.offsets("mjModel")
+_TIME, _USERDATA, _QPOS, _QVEL = (_DATA[name] for name in ("time", "userdata", "qpos", "qvel"))
+_NQ, _NV, _NKEY = (_MODEL[name] for name in ("nq", "nv", "nkey"))
+_QPOS0, _KEY_QPOS, _KEY_QVEL = (_MODEL[name] for name in ("qpos0", "key_qpos", "key_qvel"))
 _STATUS = HEADER.names.index("status")
 _NO_BOUND = 1 << 30  # the arrays below are not bounds-checked; their true lengths are the model's
 
-
-# what MuJoCo would write to its log file, the world records as a status and the loop raises
-_SILENCE = ctypes.CFUNCTYPE(None, ctypes.c_char_p)(lambda _: None)
+_TOLD = {
+    OTHER_LAYOUT: "the state that was restored is of another rig or another release",
+    TIME_JUMP: "time jumped: a state is restored with its userdata, as mjSTATE_INTEGRATION has it, or the run begins "
+    "anew with mj_resetDataKeyframe; what follows is not this run",
+    NOT_FINITE: "the run diverged",
+    BURST: "the actuator left what is physical",
+}
+_ELSEWHERE = -1
+_BEGINS_ELSEWHERE = (
+    "a run begins where mj_resetData puts it, at a stand; the cycle's start is mj_resetDataKeyframe(model, data, 0)"
+)
 
 
 @contextlib.contextmanager
 def installed(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None):
     """Install `rig`'s callback for the length of a `with` block, and restore what was there.
 
+    There is one `mjcb_control` for the whole process; a second thread waits until the first one's block has ended.
     `data` is used to hold the struct offsets against; `law` is a `law.Law` in place of the shipped controller.
-    Yields whether the callback is a Python function, which only a loop in Python may drive.
-    Raises ArsError for an integrator that calls more than once a step, and for a model not built for this rig.
+    Raises ArsError for an integrator that calls more than once a step, for a model not built for this rig, and at the
+    end where something else has been installed meanwhile.
     """
-    if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
-        raise ArsError("integrator RK4 is refused: it evaluates forces four times a step, the hydraulics advance once")
-    if not _carries(model, rig):
-        raise ArsError(f"this model was not built for the rig '{rig.NAME}': it carries no world of its layout")
-    mujoco_layout.validate(model, data)
-    python = interpreted or law is not None and not law.is_native
-    native = law.callback(rig) if law and not python else rig.CALLBACK
-    function = python_callback(rig, law) if python else c_function(native.address)
-    before, warned_before = mujoco.get_mjcb_control(), mujoco.get_mju_user_warning()
-    mujoco.set_mjcb_control(function)
-    mujoco.set_mju_user_warning(_SILENCE)
-    try:
-        yield python
-    finally:
-        mujoco.set_mjcb_control(before)
-        mujoco.set_mju_user_warning(warned_before)
+    with _one_at_a_time, withheld(), law.running() if law else contextlib.nullcontext() as running:
+        control = control_of(rig, model, data, running)
+        function, before, now = _function(control), mujoco.get_mjcb_control(), _installed.copy()
+        mujoco.set_mjcb_control(function)
+        try:
+            yield
+        finally:
+            replaced = mujoco.get_mjcb_control() is not function
+            mujoco.set_mjcb_control(before)
+            _installed[:] = now
+        if replaced:
+            raise ArsError("mjcb_control was replaced while a rig was installed: the steps since then were without it")
 
 
-def _carries(model: mujoco.MjModel, rig) -> bool:
-    """Whether `model` has a world of `rig` as its userdata and as its last custom numeric."""
-    size = rig.SIZE
-    if model.nuserdata != size or model.nnumericdata < size + rig.TABLES_SIZE:
+def _renew_lock() -> None:
+    """A forked process has no thread that would release it."""
+    global _one_at_a_time
+    _one_at_a_time = threading.RLock()
+
+
+_renew_lock()
+os.register_at_fork(after_in_child=_renew_lock)
+
+_installed = np.zeros(len(Control._fields), np.int64)  # the Control that `_watched` calls
+_INSTALLED = _installed.ctypes.data
+
+
+def _function(control: Control):
+    """What MuJoCo gets as its callback."""
+    if callable(control.callback):
+        return control.callback
+    _installed[:] = control
+    return C_FUNCTION(_WATCHED.address)
+
+
+@C_FUNCTION
+def _tell(data, status):
+    """Warn of what happened in the mjData at an address."""
+    time = ctypes.c_double.from_address(data + _TIME).value
+    if ctypes.c_int64(status or 0).value == _ELSEWHERE:
+        text = _BEGINS_ELSEWHERE
+    else:
+        text = _TOLD.get(status, "the controller failed")
+    warnings.warn(f"at {time:g} s: {text}", stacklevel=2)
+
+
+_TELL = ctypes.cast(_tell, ctypes.c_void_p).value
+
+
+@kernel
+def _begins_elsewhere(model, data):
+    """Whether mjData stands where mj_resetData puts it, and the model's first keyframe does not."""
+    if word(model + _NKEY) == 0:
         return False
-    return tuple(model.numeric_data[-size:][:2]) == (MAGIC, rig.VERSION)
+    nq, nv = word(model + _NQ), word(model + _NV)
+    qpos, qpos0 = carray(doubles(word(data + _QPOS)), (nq,)), carray(doubles(word(model + _QPOS0)), (nq,))
+    qvel, key_qpos = carray(doubles(word(data + _QVEL)), (nv,)), carray(doubles(word(model + _KEY_QPOS)), (nq,))
+    key_qvel = carray(doubles(word(model + _KEY_QVEL)), (nv,))
+    if (qpos != qpos0).any() or (qvel != 0.0).any():
+        return False
+    return (qpos != key_qpos).any() or (qvel != key_qvel).any()
 
 
-def tables_of(rig, model: mujoco.MjModel) -> np.record:
-    """The tables that a model of `rig` holds before its initial world; what is written there stays in the model."""
-    end = model.nnumericdata - rig.SIZE
-    return model.numeric_data[end - rig.TABLES_SIZE : end].view(rig.TABLES).view(np.recarray)[0]
+def _watched(model, data):
+    userdata = carray(doubles(word(data + _USERDATA)), (_NO_BOUND,))
+    is_new, status = userdata[0] != MAGIC, userdata[_STATUS]
+    elsewhere = is_new and _begins_elsewhere(model, data)
+    now = carray(integers(_INSTALLED), (4,))
+    run((now[0], now[1], now[2], now[3]), model, data, carray(doubles(data + _TIME), (1,))[0])
+    if userdata[0] == MAGIC and elsewhere:
+        call(_TELL, data, _ELSEWHERE)
+    if userdata[0] == MAGIC and (is_new or status == RUNNING) and userdata[_STATUS] != RUNNING:
+        call(_TELL, data, int(userdata[_STATUS]))
 
 
-def c_function(address: int):
-    """The ctypes function of a compiled callback."""
-    return ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(address)
-
-
-def python_callback(rig, law=None):
-    """The same callback from Python: for debugging, and for a controller that does not compile."""
-
-    def control(model, data):
-        if not _carries(model, rig):
-            return
-        world = np.asarray(data.userdata).view(rig.WORLD).view(np.recarray)
-        if world[0].header.magic != MAGIC:
-            data.userdata[:] = model.numeric_data[-model.nuserdata :]
-        if world[0].header.version != rig.VERSION:
-            stop(world[0], OTHER_LAYOUT, data.time)
-            return
-        if not interpreted:  # only the law is in Python
-            rig.native_sense(model._address, data._address)
-            law.apply(world[0])
-            rig.native_act(model._address, data._address)
-            return
-        flat = (np.asarray(getattr(data, name)).reshape(-1) for name in Fields._fields[1:])
-        mj, tables = Fields(data.time, *flat), tables_of(rig, model)
-        if law:
-            rig.sense(world[0], mj, tables)
-            law.apply(world[0])
-            rig.act(world[0], mj, tables)
-        else:
-            rig.step(world[0], mj, tables)
-
-    return control
-
-
-@intrinsic
-def word(_, address):
-    """The 8-byte integer at an address."""
-
-    def codegen(context, builder, signature, args):
-        return builder.load(builder.inttoptr(args[0], ir.IntType(64).as_pointer()))
-
-    return types.int64(types.intp), codegen
-
-
-@intrinsic
-def doubles(_, address):
-    """A pointer to the float64 numbers at an address."""
-
-    def codegen(context, builder, signature, args):
-        return builder.inttoptr(args[0], ir.DoubleType().as_pointer())
-
-    return types.CPointer(types.float64)(types.intp), codegen
-
-
-@intrinsic
-def call(_, function, first, second):
-    """Call the C function void(void*, void*) at an address."""
-
-    def codegen(context, builder, signature, args):
-        integer = ir.IntType(64)
-        function_type = ir.FunctionType(ir.VoidType(), [integer, integer])
-        builder.call(builder.inttoptr(args[0], function_type.as_pointer()), args[1:])
-        return context.get_dummy_value()
-
-    return types.void(types.intp, types.intp, types.intp), codegen
-
-
-def record_at(dtype: np.dtype):
-    """An intrinsic that views the memory at an address as a record of `dtype`."""
-    record = from_dtype(dtype)
-
-    @intrinsic
-    def view_record(_, address):
-        def codegen(context, builder, signature, args):
-            return builder.inttoptr(args[0], context.get_value_type(record))
-
-        return record(types.intp), codegen
-
-    return view_record
-
-
-@kernel
-def world_address(model: int, data: int, size: int, version: float) -> int:
-    """Address of the world in userdata, `size` numbers of the layout `version`, or 0 where the model is another's.
-
-    Where the magic is absent, as after a reset, the world is initialised from the model's last custom numeric. A world
-    of another layout, as a state from another release holds it, is left alone but for its status.
-    """
-    first = word(model + _NNUMERICDATA) - size
-    if word(model + _NUSERDATA) != size or first < 0:
-        return 0
-    initial = carray(doubles(word(model + _NUMERIC)), (_NO_BOUND,))
-    if initial[first] != MAGIC or initial[first + 1] != version:
-        return 0
-    address = word(data + _USERDATA)
-    userdata = carray(doubles(address), (_NO_BOUND,))
-    if userdata[0] != MAGIC:
-        for i in range(size):
-            userdata[i] = initial[first + i]
-    if userdata[1] != version:
-        userdata[_STATUS] = OTHER_LAYOUT
-        return 0
-    return address
-
-
-@kernel
-def tables_address(model: int, size: int, tables_size: int) -> int:
-    """Address of the tables, `tables_size` numbers that lie before the initial world of `size` numbers in the model."""
-    return word(model + _NUMERIC) + 8 * (word(model + _NNUMERICDATA) - size - tables_size)
-
-
-@kernel
-def fields(data: int):
-    """The fields of the mjData at an address."""
-    return Fields(
-        carray(doubles(data + _TIME), (1,))[0],
-        carray(doubles(word(data + _QPOS)), (_NO_BOUND,)),
-        carray(doubles(word(data + _QVEL)), (_NO_BOUND,)),
-        carray(doubles(word(data + _CTRL)), (_NO_BOUND,)),
-        carray(doubles(word(data + _QFRC)), (_NO_BOUND,)),
-        carray(doubles(word(data + _XFRC)), (_NO_BOUND,)),
-        carray(doubles(word(data + _MOCAP)), (_NO_BOUND,)),
-        carray(doubles(word(data + _XPOS)), (_NO_BOUND,)),
-        carray(doubles(word(data + _XMAT)), (_NO_BOUND,)),
-        carray(doubles(word(data + _SITE)), (_NO_BOUND,)),
-        carray(doubles(word(data + _XANCHOR)), (_NO_BOUND,)),
-        carray(doubles(word(data + _XAXIS)), (_NO_BOUND,)),
-    )
+_WATCHED = NativeCallback(SIGNATURE, _watched, cached=False)

@@ -22,7 +22,8 @@ NUMERIC = "ars_mujoco_world"  # the custom numeric that holds the initial world
 TABLES = "ars_mujoco_tables"  # and the one before it, with what is only read
 
 # status of a run, written by the callback and turned into an error by the loop
-RUNNING, TIME_JUMP, NOT_FINITE, LAW_FAILED, OTHER_LAYOUT, BURST = range(6)
+RUNNING, TIME_JUMP, NOT_FINITE, LAW_FAILED, OTHER_LAYOUT, BURST, LAW_ASTRAY, LEFT_BEHIND = range(8)
+OF_THE_LAW = (LAW_FAILED, LAW_ASTRAY)
 
 HEADER = np.dtype(
     [
@@ -36,6 +37,8 @@ HEADER = np.dtype(
     ]
 )
 
+_STATUS, _STATUS_TIME = HEADER.names.index("status"), HEADER.names.index("status_time")
+
 
 def world_dtype(parameters: np.dtype, state: np.dtype, out: np.dtype, scratch: np.dtype) -> np.dtype:
     """The record of a rig's world; `scratch` is room for what is computed but not recorded."""
@@ -46,6 +49,15 @@ def world_dtype(parameters: np.dtype, state: np.dtype, out: np.dtype, scratch: n
 def layout_version(dtype: np.dtype) -> float:
     """A number that differs where the names or the order of a world's fields do: another rig, another release."""
     return float(int(hashlib.sha256(repr(dtype.descr).encode()).hexdigest()[:12], 16))
+
+
+def place(dtype: np.dtype, *names: str) -> int:
+    """Where a field, by the names on the way to it, lies in a record of numbers, counted in numbers."""
+    at = 0
+    for name in names:
+        dtype, offset = dtype.fields[name][:2]
+        at += offset
+    return at // 8
 
 
 def view(data: mujoco.MjData, dtype: np.dtype):
@@ -88,3 +100,10 @@ def stop(world, status: float, time: float) -> None:
     """Record the first thing that went wrong, and when (s)."""
     if world.header.status == RUNNING:
         world.header.status, world.header.status_time = status, time
+
+
+@kernel
+def stop_in(userdata, status: float, time: float) -> None:
+    """The same in a world as the flat numbers of userdata."""
+    if userdata[_STATUS] == RUNNING:
+        userdata[_STATUS], userdata[_STATUS_TIME] = status, time

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from ars_mujoco.cli.analyze import analyze, fit_losses, reproduce
-from ars_mujoco.cli.console import print_json, print_table, progress_bars, warnings_in_one_line
+from ars_mujoco.cli.console import print_json, print_table, prints_on_stderr, progress_bars, warnings_in_one_line
 from ars_mujoco.cli.options import RUNS, Actuator, Controller, CycleName, Json, Out, Settings, Vehicle
 from ars_mujoco.cli.size import size
 from ars_mujoco.schema import library
@@ -36,6 +36,7 @@ class Listing(StrEnum):
     CONTROLLERS = "controllers"
     PUMPS = "pumps"
     CHANNELS = "channels"
+    SENSORS = "sensors"
 
 
 def main() -> None:
@@ -91,11 +92,12 @@ def check(
     from ars_mujoco.studies.study import study, told_apart
 
     verdicts = {}
-    compared = [read_compared(cycle, [None]) for cycle in cycles or library.shipped("cycle")]
+    with prints_on_stderr():
+        compared = [read_compared(cycle, [None]) for cycle in cycles or library.shipped("cycle")]
     names = told_apart(runs[0].cycle.name for runs, _ in compared)
     for name, (runs, references) in zip(names, compared, strict=True):
         try:
-            with progress_bars() as progress:
+            with prints_on_stderr(), progress_bars() as progress:
                 (result,) = study(runs, references, None, progress)
             failures = [str(failure) for failure in failures_of(runs[0].cycle.value.expect, result.metrics)]
         except SimulationError as error:
@@ -110,11 +112,12 @@ def check(
 
 @app.command("list")
 def list_(
-    what: Annotated[Listing | None, typer.Argument(help="Else all but channels.")] = None, as_json: Json = False
+    what: Annotated[Listing | None, typer.Argument(help="Else what is shipped.")] = None, as_json: Json = False
 ) -> None:
-    """List what is shipped, or the channels of every rig."""
-    wanted = [what] if what else [each for each in Listing if each != Listing.CHANNELS]
-    found = {each.value: _channels() if each == Listing.CHANNELS else _shipped(each) for each in wanted}
+    """List what is shipped, the channels of every rig, or the sensors that a controller in Python reads."""
+    declared = {Listing.CHANNELS: _channels, Listing.SENSORS: _sensors}
+    wanted = [what] if what else [each for each in Listing if each not in declared]
+    found = {each.value: declared[each]() if each in declared else _shipped(each) for each in wanted}
     if as_json:
         print_json(found)
         return
@@ -182,9 +185,9 @@ def _study(cycle, actuators, vehicle, controller, settings, out, as_json) -> Non
     from ars_mujoco.studies.inputs import read_compared
     from ars_mujoco.studies.study import study
 
-    runs, references = read_compared(cycle, actuators, controller, vehicle, settings or ())
-    folder = out or RUNS / runs[0].cycle.name
-    with progress_bars() as progress:
+    with prints_on_stderr(), progress_bars() as progress:
+        runs, references = read_compared(cycle, actuators, controller, vehicle, settings or ())
+        folder = out or RUNS / runs[0].cycle.name
         results = study(runs, references, folder, progress)
     if as_json:
         print_json({"folder": str(folder), "runs": {each.name: summary(each.recording) for each in results}})
@@ -239,6 +242,14 @@ def _channels() -> list[dict[str, str]]:
         {"name": name, "unit": channel.unit, "description": channel.description, "rigs": ", ".join(rigs[name])}
         for name, channel in found.items()
     ]
+
+
+def _sensors() -> list[dict[str, str]]:
+    """What `sensors` holds in a controller's `command(sensors, memory)`, with unit and description."""
+    from ars_mujoco.control.sensors import Sensors
+    from ars_mujoco.schema.channels import channels
+
+    return [{"name": each.name, "unit": each.unit, "description": each.description} for each in channels(Sensors)]
 
 
 app.command()(analyze)

@@ -4,7 +4,7 @@ import json
 import sys
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from typing import Any
 
 from ars_mujoco.schema.errors import InputError
@@ -33,6 +33,13 @@ def warnings_in_one_line() -> Iterator[None]:
 
     with warnings.catch_warnings():
         warnings.showwarning = tell
+        yield
+
+
+@contextmanager
+def prints_on_stderr() -> Iterator[None]:
+    """What a user's own code prints is told beside the results, not among them."""
+    with redirect_stdout(sys.stderr):
         yield
 
 

@@ -7,123 +7,164 @@ A file that says `GIVES = "torque"` returns the bars' torques (Nm) instead; a sy
 the torsion of the bar, M = c (phi - psi).
 `sensors` has the fields of `control.sensors.Sensors`; `memory` holds 32 numbers that stay from sample to sample and
 begin at zero. The function is called once a sample of the control unit. Where numba can compile it, it runs natively.
+What it keeps besides, as an object that is called or a module's variables, belongs to one run: the file is loaded
+afresh for each, those that set the car up among them. Only what `memory` holds is restored with a state.
 """
 
-import importlib.util
+import random
 import warnings
-from functools import cache
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numba
+import numpy as np
+from numba import carray
 
-from ars_mujoco.bridge.callback import SIGNATURE, world_address
-from ars_mujoco.bridge.world import LAW_FAILED, stop
-from ars_mujoco.control.control_unit import samples_now
-from ars_mujoco.control.reference import ANGLE, TORQUE, put
+from ars_mujoco.bridge import mujoco_layout
+from ars_mujoco.bridge.mjdata import SIGNATURE, doubles, record_at, word
+from ars_mujoco.bridge.world import LAW_ASTRAY, LAW_FAILED, place, stop_in
+from ars_mujoco.control.law_fault import compilers_reason, takes_two
+from ars_mujoco.control.law_module import SEED, loaded
+from ars_mujoco.control.law_run import MOST, LawRun
+from ars_mujoco.control.reference import ANGLE, STATE, TORQUE, put
 from ars_mujoco.control.sensors import SENSORS
-from ars_mujoco.kernels.kernel import JIT_OPTIONS, NativeCallback, entry, interpreted
+from ars_mujoco.kernels.kernel import JIT_OPTIONS, NativeCallback, entry, interpreted, kernel
+from ars_mujoco.kernels.program import UntoldError, digest
 from ars_mujoco.schema.errors import InputError
 
 FUNCTION = "command"
 GIVES = {"angle": ANGLE, "torque": TORQUE}
+_USERDATA = mujoco_layout.offsets("mjData")["userdata"]
+_NO_BOUND = 1 << 30  # of an array in mjData; a world is as long as its rig says
+_SENSORS, _REFERENCE = record_at(SENSORS), record_at(STATE)
 _ARGUMENTS = (numba.from_dtype(SENSORS), numba.types.Array(numba.float64, 1, "C"))
 
 
 class Law:
-    """A user's function, from the file `path`; `is_native` where numba compiles it."""
+    """A user's function, from the file `path` as it is now or from its `content`; `is_native` where numba compiles it.
 
-    def __init__(self, path: Path):
-        self.path, (self.function, self.gives) = path, _load(path)
-        self.failure = ""  # what it raised, where that is known
-        self._callbacks: dict[object, NativeCallback] = {}
-        self.is_native = not interpreted and self._compiles()
+    Raises InputError where the file holds none.
+    """
 
-    def _compiles(self) -> bool:
+    def __init__(self, path: Path, content: bytes | None = None):
+        self.path, self.content = path, path.read_bytes() if content is None else content
+        with self._module() as (self._function, self.gives):
+            self._compiled = None if interpreted else _compiled(self.path, self.content, self._function)
+
+    def __reduce__(self):
+        return Law, (self.path, self.content)
+
+    @property
+    def is_native(self) -> bool:
+        """Whether numba compiles it; what it keeps of its own is then constant."""
+        return self._compiled is not None
+
+    @contextmanager
+    def running(self) -> Iterator[LawRun]:
+        """The law for the length of a run."""
+        if self.is_native:
+            _seed(SEED)
+            yield LawRun(self, self._function)
+        else:
+            with self._module() as (function, _):
+                yield LawRun(self, function)
+
+    def sampling(self, rig) -> NativeCallback:
+        """The C function of a compiled law that takes a sample of `rig`, made once a process."""
+        return self._compiled.sampling(rig, self.gives)
+
+    @contextmanager
+    def _module(self):
+        """The function of the file, loaded afresh, and what it gives."""
+        with loaded(self.path, self.content) as module:
+            yield _function_of(module, self.path)
+
+
+def _function_of(module, path: Path):
+    """(function, what it gives) of a law's module."""
+    function, gives = getattr(module, FUNCTION, None), getattr(module, "GIVES", "angle")
+    if not callable(function):
+        raise InputError(f"{path}: has no function {FUNCTION}(sensors, memory)")
+    if not takes_two(function):
+        raise InputError(f"{path}: {FUNCTION}() cannot be called as {FUNCTION}(sensors, memory)")
+    if gives not in list(GIVES):  # whatever it is
+        raise InputError(f"{path}: GIVES is {gives!r}; allowed: {', '.join(GIVES)}")
+    return function, GIVES[gives]
+
+
+class _Compiled:
+    """A compiled law, and the C functions of the rigs that it was asked for."""
+
+    def __init__(self, command):
+        self._command = command
+        self._made: dict[object, NativeCallback] = {}
+
+    def sampling(self, rig, gives: int) -> NativeCallback:
+        made = self._made.get((rig, gives)) or _sampling(rig, gives, self._command)
+        return self._made.setdefault((rig, gives), made)  # the one of another thread, where that was quicker
+
+
+_by_program: dict[str, _Compiled] = {}  # of this process, by the digest of the function
+_not_compiled: dict[tuple[Path, bytes], str] = {}  # why not
+
+
+def _compiled(path: Path, content: bytes, function) -> _Compiled | None:
+    """`function` compiled, made once a process for each program; None where it runs in Python."""
+    try:
+        program = digest(function)
+    except UntoldError:
+        program = None
+    if program in _by_program:
+        return _by_program[program]
+    if (path, content) not in _not_compiled:
         try:
-            self._command = _two_floats(self.function)
+            made = _Compiled(_two_floats(function, is_cached=program is not None))
         except Exception as error:  # numba's own, or what its insides run into
-            reason = str(error).splitlines()[:2][-1]  # the first of several lines names the compiler's stage
-            warnings.warn(
-                f"{self.path}: {FUNCTION}() does not compile, so it runs in Python and every step takes several times"
-                f" as long: {reason}",
-                stacklevel=2,
-            )
-            return False
-        return True
-
-    def callback(self, rig) -> NativeCallback:
-        """The callback of `rig` with this law in it; only the law is compiled, and once."""
-        if rig not in self._callbacks:
-            self._callbacks[rig] = _callback(rig, self._command)
-        return self._callbacks[rig]
-
-    def apply(self, world) -> None:
-        """The same from Python."""
-        reference, sensors = world.later.reference, world.scratch.sensors
-        if samples_now(world.parameters.unit, sensors.time, world.header.step):
-            try:
-                front, rear = self.function(sensors, reference.memory)
-                put(reference, self.gives, float(front), float(rear))
-            except Exception as error:
-                self.failure = f": {type(error).__name__}: {error}"
-                stop(world, LAW_FAILED, sensors.time)
+            _not_compiled[path, content] = reason = compilers_reason(error, function, path)
+            warnings.warn(f"{path}: {FUNCTION}() does not compile, so it runs in Python: {reason}", stacklevel=2)
+        else:
+            if program:
+                _by_program[program] = made
+            return made
+    return None
 
 
-def _two_floats(function):
+def _two_floats(function, is_cached: bool = True):
     """`function` compiled, with its bounds checked and its result made two floats; raises where numba cannot."""
     own = numba.njit(boundscheck=True, **JIT_OPTIONS)(function)
 
     def command(sensors, memory):
         front, rear = own(sensors, memory)
-        return float(front), float(rear)
+        return float(1.0 * front), float(1.0 * rear)  # of a text, float() would make a number
 
-    compiled = entry(command)
+    compiled = entry(command) if is_cached else kernel(command)
     compiled.compile(_ARGUMENTS)
     return compiled
 
 
-def _callback(rig, command) -> NativeCallback:
-    """The callback of `rig` whose reference is `command`."""
-    sense, act, world_at, size, version = rig.native_sense, rig.native_act, rig.world_at, rig.SIZE, rig.VERSION
+def _sampling(rig, gives: int, command) -> NativeCallback:
+    """A C function void(mjModel*, mjData*) that takes a sample of `rig` by `command`; nothing of the rig is in it."""
+    sensors_at, kept_at = (8 * place(rig.WORLD, *names) for names in (("scratch", "sensors"), ("later", "reference")))
+    most = MOST[gives]
 
-    def control(model, data):
-        address = world_address(model, data, size, version)
-        if address == 0:
-            return
-        sense(model, data)
-        world = world_at(address)
-        reference, sensors = world.later.reference, world.scratch.sensors
-        if samples_now(world.parameters.unit, sensors.time, world.header.step):
-            try:
-                front, rear = command(sensors, reference.memory)
-                put(reference, world.parameters.reference.gives, front, rear)
-            except Exception:  # all that compiled code can catch
-                stop(world, LAW_FAILED, sensors.time)
-        act(model, data)
+    def sample(model, data):
+        world = word(data + _USERDATA)
+        userdata, sensors = carray(doubles(world), (_NO_BOUND,)), _SENSORS(world + sensors_at)
+        kept = _REFERENCE(world + kept_at)
+        try:
+            front, rear = command(sensors, kept.memory)
+            put(kept, gives, front, rear)
+            if not (abs(front) <= most and abs(rear) <= most):  # NaN is not
+                stop_in(userdata, LAW_ASTRAY, sensors.time)
+        except Exception:  # all that compiled code can catch; the same in Python tells the reason
+            stop_in(userdata, LAW_FAILED, sensors.time)
 
-    return NativeCallback(SIGNATURE, control)
+    return NativeCallback(SIGNATURE, sample)
 
 
-def law(path: Path) -> Law:
-    """The Law of a file, made once a process for each content. Raises InputError where the file holds none."""
-    return _law(path, path.resolve(), path.read_bytes())
-
-
-@cache
-def _law(path: Path, _place: Path, _content: bytes) -> Law:
-    return Law(path)
-
-
-def _load(path: Path):
-    spec = importlib.util.spec_from_file_location(f"law_{path.stem}", path)
-    module = importlib.util.module_from_spec(spec)
-    try:
-        spec.loader.exec_module(module)
-    except (Exception, SystemExit) as error:  # whatever a user's file raises
-        raise InputError(f"{path}: {type(error).__name__}: {error}") from None
-    function, gives = getattr(module, FUNCTION, None), getattr(module, "GIVES", "angle")
-    if not callable(function):
-        raise InputError(f"{path}: has no function {FUNCTION}(sensors, memory)")
-    if gives not in list(GIVES):  # whatever it is
-        raise InputError(f"{path}: GIVES is {gives!r}; allowed: {', '.join(GIVES)}")
-    return function, GIVES[gives]
+@entry
+def _seed(seed):
+    # numba's random numbers, which are this thread's
+    random.seed(seed)
+    np.random.seed(seed)

@@ -1,5 +1,7 @@
 """Sensors: what a controller is given at each of its samples."""
 
+from collections import namedtuple
+
 from ars_mujoco.schema.channels import channel
 from ars_mujoco.schema.parameters import Parameters, record_dtype
 
@@ -24,3 +26,5 @@ class Sensors(Parameters):
 
 
 SENSORS = record_dtype(Sensors)
+# the same of one sample, as Python code gets it: plain numbers that stay what they are
+Readings = namedtuple("Readings", SENSORS.names)

@@ -1,15 +1,16 @@
 """Excitation: what drives the bench, as knots, a sine, a sweep or a recorded input."""
 
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
-from pydantic import create_model, model_validator
+from pydantic import model_validator
 
 from ars_mujoco.excitation import knots as signal
 from ars_mujoco.excitation.knots import SIGNAL, Knots, KnotsOf
 from ars_mujoco.excitation.oscillation import OSCILLATION, SineOf, SweepOf, oscillating
 from ars_mujoco.excitation.samples import SAMPLES, SamplesOf, sampled
 from ars_mujoco.kernels.kernel import kernel
+from ars_mujoco.schema.parameters import derived
 
 JOINED, OSCILLATING, SAMPLED = range(3)
 FORMS = ("knots", "sine", "sweep", "recorded")
@@ -63,9 +64,10 @@ class Excitation(Knots):
 @cache
 def ExcitationOf(unit: str) -> type[Excitation]:  # noqa: N802 (reads as a type)
     """An Excitation whose values carry a unit of the dimension of `unit`."""
-    return create_model(
+    return derived(
+        Excitation,
         f"ExcitationOf({unit})",
-        __base__=Excitation,
+        partial(ExcitationOf, unit),
         knots=(KnotsOf(unit).model_fields["knots"].annotation | None, None),
         sine=(SineOf(unit) | None, None),
         sweep=(SweepOf(unit) | None, None),

@@ -1,15 +1,15 @@
 """Signal: a quantity over time as a few knots, and how they are joined."""
 
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, partial
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import ValidationInfo, create_model, field_validator
+from pydantic import ValidationInfo, field_validator
 
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.schema.errors import InputError
-from ars_mujoco.schema.parameters import Parameters
+from ars_mujoco.schema.parameters import Parameters, derived
 from ars_mujoco.schema.units import Unit
 
 KNOTS = 32
@@ -46,7 +46,8 @@ class Knots(Parameters):
 def KnotsOf(unit: str, **limits: float) -> type[Knots]:  # noqa: N802 (reads as a type)
     """Knots whose values carry a unit of the dimension of `unit`; `limits` are those of a Quantity."""
     knot = tuple[Annotated[float, Unit("s")], Annotated[float, Unit(unit, **limits)]]
-    return create_model(f"KnotsOf({unit})", __base__=Knots, knots=(tuple[knot, ...], ...))
+    again = partial(KnotsOf, unit, **limits)
+    return derived(Knots, f"KnotsOf({unit})", again, knots=(tuple[knot, ...], ...))
 
 
 def signal(times: Sequence[float], values: Sequence[float], join: str = "smooth") -> np.record:

@@ -1,14 +1,14 @@
 """Oscillation: a sine of one frequency, or one whose frequency sweeps from a first to a last."""
 
 import math
-from functools import cache
+from functools import cache, partial
 from typing import Annotated
 
 import numpy as np
-from pydantic import BeforeValidator, ValidationInfo, create_model, field_validator
+from pydantic import BeforeValidator, ValidationInfo, field_validator
 
 from ars_mujoco.kernels.kernel import kernel
-from ars_mujoco.schema.parameters import Parameters, number, quantity
+from ars_mujoco.schema.parameters import Parameters, derived, number, quantity
 
 HIGHEST = 100.0  # Hz; the parabolas over steps of 1 ms that the circuit gets are then within 0.2 % of the amplitude
 SPACINGS = ("linear", "logarithmic")
@@ -72,17 +72,22 @@ class Sweep(Parameters):
 @cache
 def SineOf(unit: str) -> type[Sine]:  # noqa: N802 (reads as a type)
     """A Sine of a quantity of the dimension of `unit`."""
-    return create_model(
-        f"SineOf({unit})", __base__=Sine, amplitude=(float, quantity(unit)), offset=(float, quantity(unit, default=0.0))
+    return derived(
+        Sine,
+        f"SineOf({unit})",
+        partial(SineOf, unit),
+        amplitude=(float, quantity(unit)),
+        offset=(float, quantity(unit, default=0.0)),
     )
 
 
 @cache
 def SweepOf(unit: str) -> type[Sweep]:  # noqa: N802
     """A Sweep of a quantity of the dimension of `unit`."""
-    return create_model(
+    return derived(
+        Sweep,
         f"SweepOf({unit})",
-        __base__=Sweep,
+        partial(SweepOf, unit),
         amplitude=(float, quantity(unit)),
         offset=(float, quantity(unit, default=0.0)),
     )

@@ -5,6 +5,8 @@ No fastmath: compiled and interpreted runs must agree to the last bits, and NaN 
 which hold all they call, are cached on disk (`entry`, `NativeCallback`), under a digest of their program.
 """
 
+import os
+import threading
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any, TypeVar, cast
@@ -57,15 +59,35 @@ def entry(function):
     return compiled
 
 
+class _Once:
+    """A lock for what is made once a process, whichever thread asks first."""
+
+    def __init__(self) -> None:
+        self.renew()
+
+    def renew(self) -> None:
+        """Begin anew, as in a forked process, whose other threads are gone."""
+        self.lock = threading.RLock()
+
+
+once = _Once()
+os.register_at_fork(after_in_child=once.renew)
+
+
 class NativeCallback:
     """A C function of `signature`, compiled when its address is first asked for, and cached on disk if `cached`."""
 
     def __init__(self, signature, function, cached: bool = True):
         self.signature, self.function, self.cached = signature, function, cached
 
-    @cached_property
+    @property
     def compiled(self) -> CFunc:
         """What numba makes of it; its `cache_hits` are 1 where it came from the disk."""
+        with once.lock:  # a second one, made by another thread, would take the first one's code with it
+            return self._compiled
+
+    @cached_property
+    def _compiled(self) -> CFunc:
         options = {"error_model": "numpy"}
         made = CFunc(self.function, normalize_signature(self.signature), locals={}, options=options)
         if self.cached:

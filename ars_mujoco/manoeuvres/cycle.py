@@ -1,6 +1,7 @@
 """Cycle: a manoeuvre on a rig as a user writes it: what is driven, for how long, and what is expected of it."""
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -10,7 +11,6 @@ from pydantic import (
     PlainSerializer,
     PlainValidator,
     ValidationInfo,
-    create_model,
     field_validator,
 )
 
@@ -20,7 +20,7 @@ from ars_mujoco.excitation.knots import KnotsOf, signal
 from ars_mujoco.excitation.samples import SamplesOf
 from ars_mujoco.metrics.expectation import Limit, limits
 from ars_mujoco.roads import bump as road
-from ars_mujoco.schema.parameters import Parameters, quantity
+from ars_mujoco.schema.parameters import Parameters, derived, quantity
 from ars_mujoco.schema.units import Unit
 
 Rig = Literal["bench", "roll_plane", "sedan"]
@@ -224,8 +224,12 @@ def with_inputs(inputs: Mapping[str, Any]) -> type[Cycle]:
     for name, (unit, rest, least, most) in inputs.items():
         knots = KnotsOf(unit, ge=least, le=most)
         fields[name] = (knots, knots.model_construct(knots=((0.0, rest),)))
-    block = create_model("Inputs", __base__=Parameters, **fields)
-    return create_model("Cycle", __base__=Cycle, inputs=(block, block()))
+    block = derived(Parameters, "Inputs", partial(_block, inputs), **fields)
+    return derived(Cycle, "Cycle", partial(with_inputs, inputs), inputs=(block, block()))
+
+
+def _block(inputs: Mapping[str, Any]) -> type[Parameters]:
+    return with_inputs(inputs).model_fields["inputs"].annotation
 
 
 def _side(side: object) -> float:

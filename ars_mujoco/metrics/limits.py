@@ -6,6 +6,7 @@ from ars_mujoco.metrics.metric import NotMeasurableError, Run, Value, column, me
 
 BAR = 1e5  # Pa
 RPM = np.pi / 30.0  # rad/s
+WITHIN = 1.0 - 1e-9  # of a limit, at which a command is held there
 ENDING = ".pump.extrapolation"
 
 
@@ -30,3 +31,24 @@ def _farthest(run: Run, block: str, far: np.ndarray) -> str:
         f"the losses of the {block} pump are extrapolated from {time[far > 0.0][0]:.3f} s on, at most by "
         f"{100 * far[i]:.2g} % at {time[i]:.3f} s ({part}{speed / RPM:.0f} rpm, {pressure / BAR:.1f} bar)"
     )
+
+
+@metric("s", "time that commands of the bars' angles are held at the actuator's limit")
+def command_limited(run: Run) -> Value:
+    if not run.held_at:
+        raise NotMeasurableError("the actuator holds no command at an angle")
+    asked = {axle: np.abs(column(run.recording, f"{axle}.bar.command")) for axle in run.held_at if _has(run, axle)}
+    held = {axle: asked[axle] >= WITHIN * run.held_at[axle] for axle in asked}
+    notes = [_held(run, axle, rows) for axle, rows in held.items() if rows.any()]
+    rows = np.any(list(held.values()), axis=0)
+    return Value(float(np.sum(np.diff(run.recording.time)[rows[:-1]])), note="; ".join(notes))
+
+
+def _has(run: Run, axle: str) -> bool:
+    return axle == "front" or f"{axle}.bar.command" in run.recording.channels
+
+
+def _held(run: Run, axle: str, rows: np.ndarray) -> str:
+    """Where a bar's command is held, and from when on."""
+    angle, time = np.degrees(run.held_at[axle]), run.recording.time[rows][0]
+    return f"the command of the {axle} bar is held at {angle:.4g} deg, from {time:.3f} s on"

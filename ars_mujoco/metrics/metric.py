@@ -4,8 +4,8 @@
 Metrics see recordings only. Angles are in deg and lateral accelerations in g, as engineers quote them; the rest is SI.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -19,6 +19,7 @@ class Run:
     """What the metrics are taken from.
 
     `window` (start, end) s of the manoeuvre; `reference` and `locked` are the runs the roll is compared with;
+    `held_at` are the angles (rad) that the actuator holds a larger command at, by axle;
     `target` is the roll an active bar aims at, as knots (lateral acceleration m/s^2, roll rad), empty for a bar that
     aims at none; `wall_time` s is what the run took.
     """
@@ -29,6 +30,7 @@ class Run:
     locked: Recording | None = None
     target: tuple[tuple[float, float], ...] = ()
     wall_time: float | None = None
+    held_at: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

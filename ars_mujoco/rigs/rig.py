@@ -8,20 +8,22 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib import import_module
+from pathlib import Path
 from types import FunctionType, ModuleType
 
 import numpy as np
 
 from ars_mujoco.actuators import bar_plots, bars
+from ars_mujoco.actuators.registry import system_named
 from ars_mujoco.actuators.system import NOTHING, completed, is_active
-from ars_mujoco.bridge.callback import SIGNATURE, fields, record_at, tables_address, world_address
+from ars_mujoco.bridge.mjdata import SIGNATURE, fields, record_at, tables_address, world_address
 from ars_mujoco.bridge.world import layout_version, world_dtype
 from ars_mujoco.control import control_unit
 from ars_mujoco.control.control_unit import COMMAND_LINE, ControlUnit
 from ars_mujoco.control.sensors import SENSORS
 from ars_mujoco.excitation import knots
 from ars_mujoco.excitation.knots import SIGNAL
-from ars_mujoco.kernels.kernel import NativeCallback, entry
+from ars_mujoco.kernels.kernel import NativeCallback, once
 from ars_mujoco.rigs.plots import RigPlots
 from ars_mujoco.schema.channels import Channel, channels
 from ars_mujoco.schema.events import Condition
@@ -50,14 +52,23 @@ class Frame:
     tables: Sequence[tuple] = (("nothing", "f8"),)  # what is only read, and lies in the model
 
 
-@cache
 def rig(name: str, system: ModuleType) -> "Rig":
     """The rig `name` with `system`, a module under the contract of `actuators.system`; made once."""
+    with once.lock:
+        return _rig(name, system)
+
+
+@cache
+def _rig(name: str, system: ModuleType) -> "Rig":
     return Rig(import_module(f"ars_mujoco.rigs.{name}").FRAME, completed(system))
 
 
 class Rig:
-    """A Frame with a system in it. The interpreted twins of its entries are `step`, `sense` and `act`."""
+    """A Frame with a system in it.
+
+    CALLBACK, SENSE and ACT are its entries, C functions of mjModel and mjData at addresses; their interpreted twins are
+    `step`, `sense` and `act`.
+    """
 
     def __init__(self, frame: Frame, system: ModuleType):
         self.frame, self.system, self.NAME = frame, system, frame.name
@@ -92,6 +103,13 @@ class Rig:
         self.SIZE, self.VERSION = self.WORLD.itemsize // 8, layout_version(self.WORLD)
         self.TABLES_SIZE = self.TABLES.itemsize // 8
         self.world_at, self.tables_at = record_at(self.WORLD), record_at(self.TABLES)
+        # compiled when their addresses are asked for; made here, as two threads must not each make one
+        self.CALLBACK, self.SENSE, self.ACT = (
+            NativeCallback(SIGNATURE, self._native(kernel)) for kernel in ("step", "sense", "act")
+        )
+
+    def __reduce__(self):
+        return _rig_of, (self.NAME, self.system.__name__, self.system.__file__)
 
     @cached_property
     def channels(self) -> dict[str, Channel]:
@@ -133,21 +151,6 @@ class Rig:
         """Write the forces of this step into MuJoCo, by the commands in the world."""
         self.frame.act(world, mj, tables, self.system)
 
-    @cached_property
-    def CALLBACK(self) -> NativeCallback:  # noqa: N802 (the compiled `step`)
-        """`step`, compiled, for mjModel and mjData at addresses."""
-        return NativeCallback(SIGNATURE, self._native("step"))
-
-    @cached_property
-    def native_sense(self) -> Callable:
-        """`sense`, compiled, for mjModel and mjData at addresses."""
-        return entry(self._native("sense"))
-
-    @cached_property
-    def native_act(self) -> Callable:
-        """`act`, compiled, for mjModel and mjData at addresses."""
-        return entry(self._native("act"))
-
     def _native(self, kernel: str) -> FunctionType:
         """A copy of `_entry` with this pair's globals, under a name of its own."""
         own = {
@@ -158,6 +161,11 @@ class Rig:
         made = FunctionType(_entry.__code__, {**_entry.__globals__, **own}, name)
         made.__qualname__ = name
         return made
+
+
+def _rig_of(name: str, system: str, file: str) -> Rig:
+    """The rig of that name in another process."""
+    return rig(name, system_named(system, Path(file)))
 
 
 def _entry(model, data):

@@ -4,10 +4,20 @@ A subclass of `Parameters` is at once the schema of a YAML block, the documentat
 the record that the compiled kernels read (`record_dtype`), so that no value is named twice.
 """
 
+from collections.abc import Callable
 from typing import Any, ClassVar, get_args
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainSerializer, ValidationInfo, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PlainSerializer,
+    ValidationInfo,
+    create_model,
+    model_validator,
+)
 from pydantic_core import PydanticUndefined
 
 from ars_mujoco.schema.suggestion import did_you_mean
@@ -44,6 +54,11 @@ def choice(*names: str, default: Any = PydanticUndefined) -> Any:
     return field
 
 
+def _blank(made_by: Callable[[], type]) -> Any:
+    made: Any = made_by()
+    return made.__new__(made)
+
+
 class Parameters(BaseModel):
     """A block of parameters: unknown keys are errors, values are SI, instances do not change.
 
@@ -55,6 +70,13 @@ class Parameters(BaseModel):
 
     RECORD: ClassVar[np.dtype | None] = None  # of a block whose record is not its fields, but what these attributes are
     MOVED: ClassVar[dict[str, str]] = {}  # keys of older files, and where each went
+    MADE_BY: ClassVar[Callable[[], type] | None] = None  # of a class that stands in no module: what makes it again
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        """Pickled as any object, but by what makes its class where that stands in no module."""
+        reduced = super().__reduce_ex__(protocol)
+        made_by = vars(type(self)).get("MADE_BY")
+        return (_blank, (made_by,), *reduced[2:]) if made_by else reduced
 
     @model_validator(mode="before")
     @classmethod
@@ -62,6 +84,15 @@ class Parameters(BaseModel):
         if info.context is not None:
             info.context[id(block)] = cls
         return block
+
+
+def derived(base: type[Parameters], name: str, made_by: Callable[[], type], **fields: Any) -> Any:
+    """A class `name` of `base` with other `fields`, as create_model takes them; `made_by` can be pickled and makes it
+    again.
+    """
+    made = create_model(name, __base__=base, **fields)
+    made.MADE_BY = made_by
+    return made
 
 
 def record_dtype(model: type[Parameters]) -> np.dtype:

@@ -7,9 +7,10 @@ it, and at the working directory where the command line names it.
 """
 
 import hashlib
+import pickle
 import warnings
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -50,6 +51,11 @@ class Inputs:
     system: Input | None = None
     remarks: tuple[str, ...] = ()  # on what the run does not meet
 
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        """Pickled with a user's own system as its file, which must be loaded before what is of it."""
+        parts = tuple(getattr(self, each.name) for each in fields(self))
+        return (_own_inputs, (self.system.path, pickle.dumps(parts, protocol))) if self.system else (Inputs, parts)
+
     def record(self) -> dict[str, Any]:
         """Names, hashes, settings and SI values, as a recording keeps them; a law with its path and hash."""
         recorded = {
@@ -66,6 +72,11 @@ class Inputs:
             if code:
                 recorded[part][name] = {"path": str(code.path), "sha256": code.sha256}
         return recorded
+
+
+def _own_inputs(system: Path, parts: bytes) -> Inputs:
+    own_system(system)
+    return Inputs(*pickle.loads(parts))
 
 
 def read_inputs(

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ars_mujoco.actuators.registry import system_for
+from ars_mujoco.actuators.registry import module_of, system_for
 from ars_mujoco.actuators.system import is_active
 from ars_mujoco.metrics.metric import Run, Value, measure
 from ars_mujoco.recording.folder import RunFolder, check_writable
@@ -176,7 +176,8 @@ class _Study:
             if other is not run and other in self.driven
         }
         window = cycle.window or (0.0, cycle.duration)
-        measured = measure(Run(driven.recording, window, **others, target=_target(run), wall_time=driven.wall_time))
+        told = {"target": _target(run), "wall_time": driven.wall_time, "held_at": _held_at(run)}
+        measured = measure(Run(driven.recording, window, **others, **told))
         metrics = {name: self._explained(value) for name, value in measured.items()}
         driven.recording.metrics = {name: _told(value) for name, value in metrics.items()}
         if driven.folder:
@@ -197,6 +198,12 @@ def _told(value: Value) -> dict[str, Any]:
     rest = {"at_least": True} if value.at_least else {}
     table = {"table": list(value.table)} if value.table else {}
     return {"value": value.value, "unit": value.unit, **remark, **rest, **table}
+
+
+def _held_at(inputs: Inputs) -> dict[str, float]:
+    """The angles (rad) that the actuator holds a larger command at, by axle."""
+    system, file = module_of(inputs.actuator.value), inputs.actuator.value
+    return system.held_at(file) if hasattr(system, "held_at") else {}
 
 
 def _target(inputs: Inputs) -> tuple[tuple[float, float], ...]:

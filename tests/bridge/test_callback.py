@@ -1,5 +1,6 @@
 """The callback's contract: once a step, everything in mjData, and a run that goes on bit for bit from any restore."""
 
+import warnings
 from copy import copy
 
 import mujoco
@@ -13,7 +14,9 @@ from twins import twins_apart
 from ars_mujoco.bridge import world as worlds
 from ars_mujoco.bridge.callback import installed
 from ars_mujoco.schema.errors import ArsError, SimulationError
-from ars_mujoco.simulation.simulation import check, empty_recording
+from ars_mujoco.simulation.simulation import check, empty_recording, simulate
+from ars_mujoco.studies.inputs import read_inputs
+from ars_mujoco.studies.study import simulation_of
 
 S_CURVE, ROLL_PLANE, BENCH = "s_curve_120kmh", "roll_plane_step", "bench_s_curve"
 MIDDLE = 2.5  # s into a cycle, where everything moves
@@ -155,12 +158,14 @@ def test_a_jump_in_time_is_recorded(to, sedan, middle):
         mujoco.mj_forward(sedan.model, data)
         assert world_of(sedan, data).header.status == worlds.RUNNING
         data.time = to
-        mujoco.mj_forward(sedan.model, data)
+        with pytest.warns(UserWarning, match=f"at {to:g} s: time jumped: a state is restored with its userdata"):
+            mujoco.mj_forward(sedan.model, data)
     header = world_of(sedan, data).header
     assert header.status == worlds.TIME_JUMP
     assert header.status_time == to
 
 
+@pytest.mark.filterwarnings("ignore:.*the run diverged")
 @pytest.mark.parametrize("field", ["qpos", "qvel"])
 def test_whatever_coordinate_is_not_finite_is_recorded_at_once(field, sedan, middle, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # MuJoCo writes what it warns of into the current folder
@@ -173,6 +178,55 @@ def test_whatever_coordinate_is_not_finite_is_recorded_at_once(field, sedan, mid
         header = world_of(sedan, data).header
         assert header.status == worlds.NOT_FINITE, f"{field}[{index}]"
         assert header.status_time == pytest.approx(MIDDLE, abs=0.0011)  # at the latest a step later
+
+
+# ---- who steps by himself is told
+
+
+@pytest.mark.parametrize("state", ["mjSTATE_FULLPHYSICS", "mjSTATE_INTEGRATION"])
+def test_a_restore_without_the_world_is_told_and_one_with_it_says_nothing(state, sedan):
+    data, spec = shipped.driven(sedan, 0.1), getattr(mujoco.mjtState, state)
+    kept = np.empty(mujoco.mj_stateSize(sedan.model, spec))
+    with installed(sedan.rig, sedan.model, data), warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        mujoco.mj_getState(sedan.model, data, kept, spec)
+        mujoco.mj_step(sedan.model, data, 50)
+        mujoco.mj_setState(sedan.model, data, kept, spec)
+        mujoco.mj_step(sedan.model, data, 50)
+    texts = [str(each.message) for each in told]
+    assert len(texts) == (state == "mjSTATE_FULLPHYSICS")
+    assert all(text.startswith("at 0.1 s: time jumped") for text in texts)
+
+
+def test_a_plain_reset_which_does_not_start_the_cycle_is_told(sedan):
+    data = shipped.driven(sedan, 0.1)
+    with installed(sedan.rig, sedan.model, data):
+        mujoco.mj_resetData(sedan.model, data)
+        with pytest.warns(UserWarning, match=r"the cycle's start is mj_resetDataKeyframe\(model, data, 0\)"):
+            mujoco.mj_step(sedan.model, data)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            mujoco.mj_resetDataKeyframe(sedan.model, data, 0)
+            mujoco.mj_step(sedan.model, data)
+
+
+def test_a_law_drives_a_loop_of_ones_own_as_it_drives_a_run(tmp_path):
+    """Compiled or in Python, with what it keeps."""
+    (tmp_path / "law.py").write_text(
+        "def command(sensors, memory):\n    memory[0] += 1e-4\n    return memory[0], 0.0\n"
+    )
+    slow = "total = 0.0\n\ndef command(sensors, memory):\n    global total\n    total += 1e-4\n    return total, 0.0\n"
+    (tmp_path / "slow.py").write_text(slow)
+    for name in ("law.py", "slow.py"):
+        inputs = read_inputs(ROLL_PLANE, None, str(tmp_path / name), settings=["duration=0.1 s"])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            simulation = simulation_of(inputs)
+        data = simulation.start()
+        with installed(simulation.rig, simulation.model, data, simulation.law):
+            mujoco.mj_step(simulation.model, data, 101)
+        out = data.userdata[simulation.rig.slots]
+        np.testing.assert_array_equal(out, simulate(simulation).values[-1])
 
 
 # ---- everything in mjData
@@ -270,6 +324,7 @@ def test_a_batch_is_bit_identical_to_a_loop_and_each_row_has_its_own_parameters(
     assert len({alone.tobytes() for alone in rows}) == len(SPEEDS)
 
 
+@pytest.mark.filterwarnings("ignore:.*mj_resetDataKeyframe")
 def test_a_batch_that_is_reset_begins_anew(sedan):
     batch = Batch(sedan.model, nsim=2, nthread=1)
     with installed(sedan.rig, sedan.model, sedan.start()):
@@ -318,6 +373,7 @@ def test_a_callback_leaves_models_alone_that_are_not_its_own():
     np.testing.assert_array_equal(alone.qpos, beside.qpos)
 
 
+@pytest.mark.filterwarnings("ignore:.*another rig")
 def test_a_restored_state_of_another_layout_is_told():
     simulation = shipped.simulation(S_CURVE)
     data = simulation.start()

@@ -201,7 +201,7 @@ RIG = """
     from types import FunctionType
     import numba
     import numpy as np
-    from ars_mujoco.bridge.callback import record_at
+    from ars_mujoco.bridge.mjdata import record_at
     from ars_mujoco.kernels.kernel import NativeCallback, interpreted, kernel
 
     WORLD = np.dtype([("step", "f8"), ("now", np.dtype([("x", "f8"), ("y", "f8")]))])

@@ -14,7 +14,7 @@ import pytest
 
 from ars_mujoco.actuators.pump_controlled import full_stage
 from ars_mujoco.bridge import native_loop
-from ars_mujoco.bridge.callback import record_at
+from ars_mujoco.bridge.mjdata import record_at
 from ars_mujoco.kernels import program
 from ars_mujoco.kernels.kernel import interpreted, kernel
 from ars_mujoco.kernels.program import UntoldError, digest

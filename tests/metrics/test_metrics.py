@@ -204,3 +204,14 @@ def test_extrapolated_losses_are_told_with_time_and_place():
     )
     inside = recording(time, front__pump__extrapolation=0.0)
     assert measure(Run(inside, (0.0, 1.0)))["loss_extrapolation"].value == 0.0
+
+
+def test_commands_that_the_actuator_holds_at_its_limit_are_told():
+    time = np.linspace(0.0, 1.0, 1001)
+    asked = np.where(time > 0.3995, -0.25, 0.1)
+    run = recording(time, front__bar__command=asked, rear__bar__command=0.2)
+    told = measure(Run(run, (0.0, 1.0), held_at={"front": 0.25, "rear": 0.25}))["command_limited"]
+    assert told.value == pytest.approx(0.6)
+    assert told.note == "the command of the front bar is held at 14.32 deg, from 0.400 s on"
+    assert measure(Run(run, (0.0, 1.0), held_at={"front": 0.3}))["command_limited"].value == 0.0
+    assert measure(Run(run, (0.0, 1.0)))["command_limited"].value is None

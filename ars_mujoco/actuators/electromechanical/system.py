@@ -11,7 +11,7 @@ import numpy as np
 
 from ars_mujoco.actuators.electromechanical.channels import EVENTS, PLOTS, Output, report
 from ars_mujoco.actuators.electromechanical.sizing import SIZING
-from ars_mujoco.actuators.electromechanical.unit import Energy, State, Unit, unit_rates, unit_wish
+from ars_mujoco.actuators.electromechanical.unit import ANGLE, Energy, State, Unit, unit_rates, unit_wish
 from ars_mujoco.actuators.pair import FAR
 from ars_mujoco.actuators.system import Beyond, Car, Command, Input
 from ars_mujoco.control.control_unit import NOTHING_ASKED
@@ -45,6 +45,12 @@ class File(Parameters):
     front: Unit
     rear: Unit
     supply: ElectricSupply
+
+
+def held_at(file: File) -> dict[str, float]:
+    """The angle (rad) of each bar that a command beyond it is held at, where it follows angles."""
+    loops = {"front": file.front.loops, "rear": file.rear.loops}
+    return {axle: each.max_angle for axle, each in loops.items() if each.follow == ANGLE}
 
 
 class Equations(Parameters):

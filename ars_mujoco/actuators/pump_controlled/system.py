@@ -11,6 +11,11 @@ from ars_mujoco.actuators.pump_controlled.sizing import SIZING
 from ars_mujoco.actuators.pump_controlled.third_order_stage import FOLLOWS, NAME
 
 
+def held_at(file: PumpControlled) -> dict[str, float]:
+    """The angle (rad) of each bar that a command beyond it is held at."""
+    return dict.fromkeys(("front", "rear"), file.control.loop.max_angle)
+
+
 def variant(file: PumpControlled) -> ModuleType:
     """The stage that runs `file`."""
     if is_third_order(file):

@@ -2,7 +2,7 @@
 
 from ars_mujoco.actuators.registry import bare, module_of, system_for
 from ars_mujoco.actuators.system import Torsion, is_active
-from ars_mujoco.bridge.callback import tables_of
+from ars_mujoco.bridge.control import tables_of
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.manoeuvres.cycle import Cycle
 from ars_mujoco.rigs.setup.start import Start

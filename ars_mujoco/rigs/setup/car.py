@@ -6,7 +6,7 @@ import numpy as np
 
 from ars_mujoco.actuators.system import Torsion, is_active
 from ars_mujoco.control.controller import Controller
-from ars_mujoco.control.law import Law, law
+from ars_mujoco.control.law import Law
 from ars_mujoco.control.reference import BOTH
 from ars_mujoco.rigs.setup.start import Start
 from ars_mujoco.schema.errors import ArsError, InputError
@@ -27,7 +27,7 @@ def fill_addresses(record, values: dict) -> None:
 
 def law_of(controller: Controller) -> Law | None:
     """The user's law, where the controller names one."""
-    return law(Path(controller.law)) if controller.law else None
+    return Law(Path(controller.law)) if controller.law else None
 
 
 def torsion(bar: Bar | RollPlaneBar) -> Torsion:

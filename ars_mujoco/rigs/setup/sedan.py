@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from ars_mujoco.bridge.callback import installed, tables_of
+from ars_mujoco.bridge.control import control_of, tables_of
+from ars_mujoco.bridge.engine_warnings import withheld
+from ars_mujoco.bridge.native_loop import forward
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.driving.driver import Driver
 from ars_mujoco.excitation.knots import signal
@@ -58,8 +60,9 @@ def _park(start: Start) -> None:
     start.parameters.speed = start.parameters.demand = signal([0.0], [0.0])
     simulation = start.stored()
     data = simulation.start()
-    with installed(start.rig, simulation.model, data):
-        rest.solve(simulation.model, data)
+    control = control_of(start.rig, simulation.model, data)
+    with withheld():
+        rest.solve(simulation.model, data, lambda model, data: forward(model, data, control))
 
 
 def _learn(start: Start, vehicle: Sedan) -> None:
