@@ -47,7 +47,6 @@ PARAMETERS = np.dtype(
         ("drive", BELT_DRIVE),
         ("has_rear", "f8"),  # 0 on the bench
         ("substeps", "f8"),
-        ("dead_substeps", "f8"),  # while the pump delivers next to nothing
     ]
 )
 

@@ -50,7 +50,6 @@ BEYOND = Beyond("over 1000 bar, or far past its stop", ("front.motor.pressure", 
 FAR_PRESSURE = 1000e5  # Pa
 FAR_ANGLE = 2.0  # of the motor's stop
 HELD_FRONT, HELD_REAR, HELD_OPENING = 120e5, 75e5, 0.12  # Pa, Pa and an opening, of a held torque
-DEAD = 0.34  # of the flow limit: with less the open valves flow laminar, which is far stiffer
 DRAWN = -0.5e5  # Pa, at which check valves are open
 
 
@@ -89,8 +88,7 @@ def advance(p, now, later, out, work, command, twists, moment):
     setting = Setting(flow, speed, unit.front_current, unit.rear_current, unit.side, unit.fail_safe)
     _report(p, now, later, out, command, Demand(setting, twists.front.angle, twists.rear.angle))
     held = Demand(setting, twists.front.held, twists.rear.held)
-    count = p.substeps if flow > DEAD * p.pump.flow_limit else p.dead_substeps
-    return step_through(p, now, later, held, moment.step, int(count))
+    return step_through(p, now, later, held, moment.step, int(p.substeps))
 
 
 @kernel
@@ -138,15 +136,16 @@ def _is_beyond(p, state):
 def fill(record, file: File, car: Car, step: float) -> None:
     """Write the parameters; without a rear bar, as on the bench, there is no rear motor."""
     fill_system(record, file, car, step)
-    dead, *flowing = _slopes(record)
-    record.substeps = fewest_substeps(flowing, step)
-    record.dead_substeps = max(fewest_substeps([dead], step), record.substeps)
+    record.substeps = fewest_substeps(_slopes(record), step)
 
 
 def start(record, state) -> None:
-    """Write the state at rest: the pump circulates through open valves, the motors lie at the return line."""
-    _rest(record, state.state, limited_flow(record.pump, first_speed(record.drive), 1.0))
-    state.drive.intake = state.unit.fail_safe = 1.0
+    """Write the state at rest: for long the pump has circulated what the restrictor leaves it through open valves, and
+    the motors lie at the return line.
+    """
+    intake = record.pump.intake
+    _rest(record, state.state, limited_flow(record.pump, first_speed(record.drive), intake.least_share))
+    state.drive.intake, state.drive.idle, state.unit.fail_safe = intake.least_share, intake.hold, 1.0
 
 
 def _rest(record, state, flow: float) -> None:
@@ -163,16 +162,16 @@ def _rest(record, state, flow: float) -> None:
 def _slopes(record) -> list[np.ndarray]:
     """Slopes of the equations (1/s) where they are stiffest, for the substeps.
 
-    Without flow, where open pressure valves flow laminar; with the least that is not called so, at rest, where friction
-    is rounded; at a held pressure, where the direction valve flows laminar; in motion; over the relief valve's pressure;
-    with open check valves; past the motor's stop.
+    At rest without flow, where friction is rounded and open pressure valves flow laminar; the same with the direction
+    valve at an end, which then flows laminar too; at a held pressure; in motion; over the relief valve's pressure; with open check valves; past the motor's stop.
     """
     demand = Demand(Setting(0.0, 0.0, 0.0, 0.0, 0.0, 1.0), 0.0, 0.0)
     looks = np.zeros(7, record_dtype(State)).view(np.recarray)
-    for place, look in enumerate(looks):
-        _rest(record, look, DEAD * record.pump.flow_limit if place else 0.0)
-    _, _, holding, moving, relieved, drawn, stopped = looks
-    holding.supply.front_pressure, holding.supply.rear_pressure, holding.supply.spool = HELD_FRONT, HELD_REAR, 1.0
+    for look in looks:
+        _rest(record, look, 0.0)
+    _, switched, holding, moving, relieved, drawn, stopped = looks
+    switched.supply.spool = holding.supply.spool = 1.0
+    holding.supply.front_pressure, holding.supply.rear_pressure = HELD_FRONT, HELD_REAR
     holding.supply.front_opening = holding.supply.rear_opening = HELD_OPENING
     holding.front.chamber_a, holding.rear.chamber_a = HELD_FRONT, HELD_REAR
     relieved.supply.front_pressure = 1.1 * record.block.relief_valve.pressure
