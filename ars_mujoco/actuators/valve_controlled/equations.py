@@ -46,6 +46,7 @@ PARAMETERS = np.dtype(
         ("control", record_dtype(Control)),
         ("drive", BELT_DRIVE),
         ("has_rear", "f8"),  # 0 on the bench
+        ("has_road", "f8"),  # 0 where there is no road speed
         ("substeps", "f8"),
     ]
 )

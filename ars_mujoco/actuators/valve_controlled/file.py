@@ -75,4 +75,4 @@ def fill_system(record: np.record, file: ValveControlled, car: Car, step: float)
     for name, torsion in (("front", car.front), ("rear", car.rear or car.front)):
         fill(record[name].axle, getattr(file, name))
         record[name].stiffness = torsion.stiffness
-    record.has_rear = car.rear is not None
+    record.has_rear, record.has_road = car.rear is not None, car.has_road

@@ -82,7 +82,8 @@ def advance(p, now, later, out, work, command, twists, moment):
     share(later.unit, now.unit)
     if samples_now(p.control, moment.time, moment.step):
         period = max(p.control.sample_time, moment.step)
-        conditions = (period, moment.road_speed, command.inputs[FAIL_SAFE], flow)
+        road_speed = moment.road_speed if p.has_road == 1.0 else math.inf  # a rig without a road is a car that drives
+        conditions = (period, road_speed, command.inputs[FAIL_SAFE], flow)
         sample(p, later.unit, now.state.supply, command, conditions)
     unit = later.unit
     setting = Setting(flow, speed, unit.front_current, unit.rear_current, unit.side, unit.fail_safe)
