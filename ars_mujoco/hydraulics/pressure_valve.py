@@ -19,7 +19,6 @@ from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.schema.parameters import Parameters, number, quantity
 
 
-
 class PressureValve(Parameters):
     """Direct-acting valve with its solenoid."""
 
@@ -29,7 +28,7 @@ class PressureValve(Parameters):
     current_limit: float = quantity("A", gt=0)  # at which it is
     pressure_range: float = quantity("Pa", gt=0)  # this
     hysteresis: float = number(ge=0, lt=1)  # width of its loop, of the pressure range
-    turning_current: float = quantity("A", gt=0)  # within which the setting turns from one side of the loop to the other
+    turning_current: float = quantity("A", gt=0)  # within which the setting turns to the loop's other side
     flow: float = quantity("m^3/s", gt=0)  # Q_0, fully open
     pressure: float = quantity("Pa", gt=0)  # p_0, at that flow
     laminar_pressure: float = quantity("Pa", gt=0)  # below about which it flows laminar
@@ -99,6 +98,6 @@ def open_pressure(valve: PressureValve, flow: float) -> float:
 
 
 @kernel
-def _widest(valve):
+def _widest(valve: PressureValve) -> float:
     # Q/sqrt(dp) of the open valve
     return valve.flow / rounded_root(valve.pressure, valve.laminar_pressure)

@@ -28,7 +28,7 @@ class SpeedTable(Parameters):
     """The pump at a speed over time; zero is an engine that is off, or a belt that is lost."""
 
     kind: Literal["table"]
-    speed: KnotsOf("rad/s", ge=0)
+    speed: KnotsOf("rad/s", ge=0)  # type: ignore[valid-type]  # a class, made where it is named
 
 
 BeltDrive = Annotated[ConstantSpeed | SpeedTable | Engine, Field(discriminator="kind")]
@@ -54,7 +54,8 @@ def pump_speed(drive: Any, now: Any, later: Any, time: float, road_speed: float)
     if drive.kind == ENGINE:
         later.gear = gear(drive.engine, drive.gearbox, now.gear, road_speed)
         return drive.engine.pump_ratio * engine_speed(drive.engine, drive.gearbox, later.gear, road_speed)
-    return value(drive.table, time) if drive.kind == TABLE else drive.constant
+    speed: float = value(drive.table, time) if drive.kind == TABLE else drive.constant  # type: ignore[no-untyped-call]
+    return speed
 
 
 def fill_belt_drive(record: Any, drive: Any) -> None:

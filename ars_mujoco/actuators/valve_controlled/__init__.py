@@ -1,1 +1,1 @@
-"""Valve-controlled: one pump on the engine, two pressure valves in series, a vane motor between the halves of each bar."""
+"""Valve-controlled: one pump on the engine, two pressure valves in series, and a vane motor in each bar."""

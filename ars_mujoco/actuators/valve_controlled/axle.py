@@ -127,4 +127,3 @@ def _edge(direction, opening, before):
 def _flow(way, difference):
     # most ways are shut
     return way * rounded_root(difference, ROUNDING) if way > 0.0 else 0.0
-

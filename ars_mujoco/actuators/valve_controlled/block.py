@@ -111,16 +111,18 @@ def block_rates(p, setting, front, rear, delivered_powers, state):
 
     `front` and `rear` are each axle's Exchange, `delivered_powers` (W) what each draws.
     """
-    node_v, node_h, current_v, turned_v, opening_v, current_h, turned_h, opening_h, spool, opened, seen_v, seen_h = state
+    node_v, node_h, current_v, turned_v, open_v, current_h, turned_h, open_h, spool, opened, seen_v, seen_h = state
     block, outlet, speed = p.block, p.block.return_pressure, setting.speed
     over_v, over_h = node_v - node_h, node_h - outlet
-    flow_v, flow_h = valve_flow(block.front_valve, opening_v, over_v), valve_flow(block.rear_valve, opening_h, over_h)
+    flow_v, flow_h = valve_flow(block.front_valve, open_v, over_v), valve_flow(block.rear_valve, open_h, over_h)
     relief, pump_leak = one_way_relief(block.relief_valve, node_v), p.pump.leakage * node_v
     spool_leak = block.direction_valve.leakage
     leak_v, leak_h = spool_leak * (node_v - outlet), spool_leak * over_h
     works_on = over_v if block.front_reference == REAR_NODE else node_v - outlet
-    front_valve = _valve_rates(block.front_valve, setting.front_current, works_on, over_v, (current_v, turned_v, opening_v))
-    rear_valve = _valve_rates(block.rear_valve, setting.rear_current, over_h, over_h, (current_h, turned_h, opening_h))
+    front_valve = _valve_rates(
+        block.front_valve, setting.front_current, works_on, over_v, (current_v, turned_v, open_v)
+    )
+    rear_valve = _valve_rates(block.rear_valve, setting.rear_current, over_h, over_h, (current_h, turned_h, open_h))
     derivatives = (
         (setting.flow - pump_leak - relief - front.taken - flow_v - leak_v) / p.front.axle.node_capacitance,
         (flow_v - rear.taken - flow_h - leak_h) / p.rear.axle.node_capacitance,

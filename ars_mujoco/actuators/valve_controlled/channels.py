@@ -141,7 +141,7 @@ def report_axle(p: Any, state: Any, energy: Any, out: Any, twist: float, powers:
 
 @kernel
 def report_supply(p: Any, now: Any, out: Any, setting: Any, powers: Any) -> None:
-    """What pump and block record; `now` has their `state`, `energy` and `unit`, `powers` (W) stand as in BlockEnergy."""
+    """What pump and block record; `now` has their `state` and `energy`, `powers` (W) stand as in BlockEnergy."""
     state, block, electrics = now.state.supply, p.block, p.electrics
     shaft, _, loss, _, _, front_loss, rear_loss, _, _, _, _, _, _, _ = powers
     out.pump.speed, out.pump.flow, out.pump.intake = setting.speed, setting.flow, now.drive.intake

@@ -38,8 +38,8 @@ class ValveControlled(Parameters):
             wanted, most = getattr(control, f"{axle}_pressure"), getattr(block, f"{axle}_valve").pressure_range
             if wanted > most:
                 raise ValueError(
-                    f"{axle}_pressure is {1e-5 * wanted:.4g} bar, which block.{axle}_valve does not hold; allowed: up to "
-                    f"its pressure_range, {1e-5 * most:.4g} bar"
+                    f"{axle}_pressure is {1e-5 * wanted:.4g} bar, which block.{axle}_valve does not hold; allowed: "
+                    f"up to its pressure_range, {1e-5 * most:.4g} bar"
                 )
         return control
 

@@ -17,8 +17,8 @@ import math
 import numpy as np
 
 from ars_mujoco.actuators.system import Beyond, Car, Input
-from ars_mujoco.actuators.valve_controlled.channels import EVENTS, PLOTS, Output, report_axle, report_supply
 from ars_mujoco.actuators.valve_controlled.block import Setting
+from ars_mujoco.actuators.valve_controlled.channels import EVENTS, PLOTS, Output, report_axle, report_supply
 from ars_mujoco.actuators.valve_controlled.equations import (
     BLOCK_POWERS,
     PARAMETERS,
@@ -164,7 +164,8 @@ def _slopes(record) -> list[np.ndarray]:
     """Slopes of the equations (1/s) where they are stiffest, for the substeps.
 
     At rest without flow, where friction is rounded and open pressure valves flow laminar; the same with the direction
-    valve at an end, which then flows laminar too; at a held pressure; in motion; over the relief valve's pressure; with open check valves; past the motor's stop.
+    valve at an end, which then flows laminar too; at a held pressure; in motion; over the relief valve's pressure; with
+    open check valves; past the motor's stop.
     """
     demand = Demand(Setting(0.0, 0.0, 0.0, 0.0, 0.0, 1.0), 0.0, 0.0)
     looks = np.zeros(7, record_dtype(State)).view(np.recarray)

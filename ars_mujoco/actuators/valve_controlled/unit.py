@@ -41,7 +41,7 @@ class Control(Parameters):
     integral_time: float = quantity("s", gt=0)
     authority: float = quantity("Pa", ge=0)  # of the loops; beyond such an error they do not integrate
     test_pressure: float = quantity("Pa", gt=0)
-    test_settling: float = quantity("s", ge=0)  # for both valves to move
+    test_settling: float = quantity("s", ge=0)  # before and after it, for the switching valves to move
     test_rise: float = quantity("s", gt=0)  # within which the pressure must be there
     test_tolerance: float = quantity("Pa", gt=0)
 
@@ -66,10 +66,10 @@ class UnitState(Parameters):
 
 @kernel
 def sample(p: Any, unit: Any, block: Any, command: Any, conditions: Any) -> None:
-    """One sample: `unit` is a UnitState, changed in place; `block` a BlockState of which only what sensors show is read.
+    """One sample: `unit` is a UnitState, changed in place; of `block`, a BlockState, only what sensors show is read.
 
-    `conditions` are the sample time (s), the road speed (m/s), the opening (0 to 1) that the fail-safe valve is allowed,
-    and the pump's flow (m^3/s), which follows from the engine speed.
+    `conditions` are the sample time (s), the road speed (m/s), the opening (0 to 1) that the fail-safe valve is
+    allowed, and the pump's flow (m^3/s), which follows from the engine speed.
     """
     period, road_speed, allowed, flow = conditions
     testing = _test(p, unit, block, period, road_speed)
@@ -81,12 +81,13 @@ def sample(p: Any, unit: Any, block: Any, command: Any, conditions: Any) -> None
     if wanted != unit.side and is_low:
         unit.side = wanted
     outlet, is_in_place = p.block.return_pressure, abs(block.spool - unit.side) < IN_PLACE
-    if testing and is_in_place and unit.test > p.control.test_settling:
+    if testing and is_in_place and _is_test_pressure_asked(p.control, unit):
         _hold(p, unit, (p.control.test_pressure, outlet), flow)
     elif unit.active == 1.0 and wanted != 0.0 and unit.side == wanted and is_in_place:
         most = p.control.front_pressure, p.control.rear_pressure
-        lagging = _pressure(p, p.rear, wanted * rear, wanted * (rear - unit.rear_torque) / period, most[1])
-        leading = _pressure(p, p.front, wanted * front, wanted * (front - unit.front_torque) / period, most[0])
+        front_rate, rear_rate = (front - unit.front_torque) / period, (rear - unit.rear_torque) / period
+        leading = min(_pressure(p, p.front, wanted * front, wanted * front_rate, flow), most[0])
+        lagging = min(_pressure(p, p.rear, wanted * rear, wanted * rear_rate, flow), most[1])
         _regulate(p, unit, block, (max(leading, lagging), lagging), (period, flow))
     else:
         _circulate(unit)
@@ -103,12 +104,13 @@ def _side(control, side, torque):
 
 
 @kernel
-def _pressure(p, axle, torque, torque_rate, most):
-    # pressure (Pa) for a torque (Nm) to the side of the direction valve that changes at a rate (Nm/s); a torque to the
-    # other side cannot be given
+def _pressure(p, axle, torque, torque_rate, flow):
+    # pressure (Pa) for a torque (Nm) to the side of the direction valve that changes at a rate (Nm/s), which moves the
+    # motor no faster than the pump's flow does; a torque to the other side cannot be given
     motor, outlet = axle.axle.motor, p.block.return_pressure
-    needed = max(torque, 0.0) + friction_torque(motor, torque_rate / axle.stiffness)
-    return min(max(needed / motor.displacement + outlet, outlet), most)
+    rate = saturate(torque_rate / axle.stiffness, flow / motor.displacement)
+    needed = max(torque, 0.0) + friction_torque(motor, rate)
+    return outlet + max(needed, 0.0) / motor.displacement
 
 
 @kernel
@@ -161,14 +163,25 @@ def _drives(control, active, road_speed):
 def _test(p, unit, block, period, road_speed):
     # whether the test before driving off goes on; a car that drives has passed it
     control = p.control
-    length = control.test_settling + control.test_rise
+    judged = control.test_settling + control.test_rise
+    length = judged + control.test_settling
     if unit.test >= length:
         return False
     if road_speed > STANDING:
         unit.test = length
         return False
     unit.test += period
-    if unit.test < length:
-        return True
-    unit.failed = 1.0 if abs(block.front_sensed - control.test_pressure) > control.test_tolerance else 0.0
-    return False
+    if unit.test - period < judged <= unit.test and not _is_proven(control, block):
+        unit.failed = 1.0
+    return unit.test < length
+
+
+@kernel
+def _is_test_pressure_asked(control, unit):
+    return control.test_settling < unit.test < control.test_settling + control.test_rise
+
+
+@kernel
+def _is_proven(control, block):
+    # oil that went on into the front motor would not be at that pressure yet
+    return abs(block.front_sensed - control.test_pressure) <= control.test_tolerance
