@@ -2,7 +2,7 @@
 
     current i' = (i_c - i)/tau      coil under a current control
     setting    k (i - i_0)          less or more half the hysteresis, as the current last rose or fell
-    opening    tau_s y' = y_s - y   spool; y_s = (p - setting)/b(dp), at most 1
+    opening    tau_s y' = y_s - y   spool, between its stops 0 and 1; y_s = (p - setting)/b(dp)
     flow       Q = y Q_0 sqrt(dp/p_0), laminar where dp is small
 
 b(dp) is the stiffness of spring and flow force in terms of pressure: override r = dp/dQ at the normal pressure p_n, of
@@ -61,17 +61,23 @@ def hysteresis_rate(valve: PressureValve, turned: float, current_rate: float) ->
 
 @kernel
 def opening_wanted(valve: PressureValve, pressure: float, setting: float, difference: float) -> float:
-    """Opening (0 to 1) at which spring and flow force hold the spool, where `pressure` (Pa) works on it against the
-    setting, and oil flows under a pressure difference (Pa).
+    """Opening at which spring and flow force would hold a spool without stops, where `pressure` (Pa) works on it
+    against the setting, and oil flows under a pressure difference (Pa). The further it is, the faster the spool moves.
     """
-    return min(max((pressure - setting) / (stiffness(valve, difference) * _widest(valve)), 0.0), 1.0)
+    return (pressure - setting) / (stiffness(valve, difference) * _widest(valve))
+
+
+@kernel
+def between_stops(opening: float) -> float:
+    """An opening held between the spool's stops."""
+    return min(max(opening, 0.0), 1.0)
 
 
 @kernel
 def valve_flow(valve: PressureValve, opening: float, difference: float) -> float:
     """Flow (m^3/s) through an opening, with the sign of the pressure difference (Pa); leakage included."""
     root = rounded_root(difference, valve.laminar_pressure)
-    return opening * _widest(valve) * root + valve.leakage * difference
+    return between_stops(opening) * _widest(valve) * root + valve.leakage * difference
 
 
 @kernel

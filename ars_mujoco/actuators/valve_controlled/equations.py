@@ -29,6 +29,7 @@ from ars_mujoco.actuators.valve_controlled.block import (
     fail_safe_way,
 )
 from ars_mujoco.actuators.valve_controlled.unit import Control
+from ars_mujoco.hydraulics.pressure_valve import between_stops
 from ars_mujoco.hydraulics.radial_piston_pump import RadialPistonPump
 from ars_mujoco.kernels.kernel import inlined
 from ars_mujoco.kernels.records import along, zeros
@@ -69,6 +70,9 @@ class Energy(Parameters):
 
 
 REAR, BLOCK = len(AxleState.model_fields), 2 * len(AxleState.model_fields)  # where their states begin
+FRONT_OPENING = BLOCK + list(BlockState.model_fields).index("front_opening")
+REAR_OPENING = BLOCK + list(BlockState.model_fields).index("rear_opening")
+AFTER_FRONT, AFTER_REAR = FRONT_OPENING + 1, REAR_OPENING + 1
 POWERS, BLOCK_POWERS = len(AxleEnergy.model_fields), 2 * len(AxleEnergy.model_fields)
 
 # what holds over a step: the block's Setting, and the twists (rad) of both bars
@@ -96,4 +100,16 @@ def rates(p, demand, t, state):
         (*front, *rear, *supply),
         (*front_powers, *rear_powers, *supply_powers),
         (front_torque, p.has_rear * rear_torque),
+    )
+
+
+@inlined
+def settled(p, state):
+    """The state after a substep, the spools of the pressure valves between their stops."""
+    return (
+        *state[:FRONT_OPENING],
+        between_stops(state[FRONT_OPENING]),
+        *state[AFTER_FRONT:REAR_OPENING],
+        between_stops(state[REAR_OPENING]),
+        *state[AFTER_REAR:],
     )

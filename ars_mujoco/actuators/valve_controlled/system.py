@@ -27,6 +27,7 @@ from ars_mujoco.actuators.valve_controlled.equations import (
     Energy,
     State,
     rates,
+    settled,
 )
 from ars_mujoco.actuators.valve_controlled.file import AXLES, fill_system, released
 from ars_mujoco.actuators.valve_controlled.file import ValveControlled as File
@@ -69,7 +70,7 @@ STATE = np.dtype(
     ]
 )
 
-step_through = integrated(rates)
+step_through = integrated(rates, settled)
 _derivatives = derivatives(rates)
 
 

@@ -11,6 +11,7 @@ NODES, CHAMBERS = (1.75e-13, 2.73e-13), (7.5e-14, 1.17e-13)
 RETURN = 1.4e5
 WIDE = 1.5e-4 / (1.8e5 / (1.8e5**2 + 0.6e5**2) ** 0.25)  # of an open pressure valve
 EDGE = 1.5e-4 / np.sqrt(1e5)
+STOP = 1e-5  # s
 AXLE_SCALES, VALVE_SCALES = [1e5, 1e5, 0.01, 0.1], [0.1, 0.1, 0.1]
 SCALES = np.array([*AXLE_SCALES, *AXLE_SCALES, 1e5, 1e5, *VALVE_SCALES, *VALVE_SCALES, 0.1, 1.0, 1.0, 1.0])
 
@@ -58,9 +59,10 @@ def solution(settings, flow, rpm, times):
                 current_rate = (currents[i] - current) / 5e-3
                 setting = 180e5 / 0.95 * (current - 0.15) - 0.5 * 0.03 * 180e5 * turned
                 stiffness = 0.4e5 * 6e4 * (0.5 * np.sqrt(70e5) + 0.5 * max(dp, 0.0) / np.sqrt(70e5))
-                wanted = min(max((dp - setting) / (stiffness * WIDE), 0.0), 1.0)
-                flows.append(opening * WIDE * root(dp, 0.6e5) + 2e-13 * dp)
-                valves += [current_rate, (current_rate - abs(current_rate) * turned) / 0.03, (wanted - opening) / 8e-3]
+                moving = ((dp - setting) / (stiffness * WIDE) - opening) / 8e-3
+                moving -= (opening - min(max(opening, 0.0), 1.0)) / STOP  # its stops are stiff
+                flows.append(min(max(opening, 0.0), 1.0) * WIDE * root(dp, 0.6e5) + 2e-13 * dp)
+                valves += [current_rate, (current_rate - abs(current_rate) * turned) / 0.03, moving]
             relief = 8.33e-11 * max(y[8] - 195e5, 0.0)
             nodes = [
                 (flow - 8e-13 * y[8] - relief - taken[0] - flows[0] - 2e-13 * (y[8] - RETURN)) / NODES[0],
@@ -87,4 +89,6 @@ def solution(settings, flow, rpm, times):
         )  # fmt: skip
         found.append(solved.y[:, :-1])
         y = solved.y[:, -1]
-    return np.concatenate(found, axis=1)
+    states = np.concatenate(found, axis=1)
+    states[[12, 15]] = np.clip(states[[12, 15]], 0.0, 1.0)  # within its stops by what they yield
+    return states
