@@ -63,7 +63,7 @@ def solution(settings, flow, rpm, times):
                 moving -= (opening - min(max(opening, 0.0), 1.0)) / STOP  # its stops are stiff
                 flows.append(min(max(opening, 0.0), 1.0) * WIDE * root(dp, 0.6e5) + 2e-13 * dp)
                 valves += [current_rate, (current_rate - abs(current_rate) * turned) / 0.03, moving]
-            relief = 8.33e-11 * max(y[8] - 195e5, 0.0)
+            relief = 3e-10 * max(y[8] - 195e5, 0.0)
             nodes = [
                 (flow - 8e-13 * y[8] - relief - taken[0] - flows[0] - 2e-13 * (y[8] - RETURN)) / NODES[0],
                 (flows[0] - taken[1] - flows[1] - 2e-13 * drops[1]) / NODES[1],
