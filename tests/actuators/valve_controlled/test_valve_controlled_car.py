@@ -39,11 +39,12 @@ def test_the_front_pressure_is_never_below_the_rear(cycle):
 
 
 def test_with_the_front_sealed_and_the_rear_free_it_rolls_3_1_deg_a_g():
-    run = driven(
-        "step_steer_iso7401", "inputs={front_fail_safe: {join: step, knots: [[0 s, 1], [0.1 s, 0]]}}"
-    ).recording
-    now = np.searchsorted(run.time, 2.0)  # a second after the step, before much has leaked
-    gradient = np.degrees(run["body.roll"][now]) / (run["body.lateral_acceleration"][now] / 9.80665)
+    """As the reference counts: without leakage, which lets the bar go with 7 s. The oil of the sealed chambers makes the
+    bar 6 % softer, and this car rolls 3.4 deg/g with a front bar that is held.
+    """
+    sealed = "inputs={front_fail_safe: {join: step, knots: [[0 s, 1], [0.1 s, 0]]}}"
+    run = driven("step_steer_iso7401", sealed, "actuator.front.motor.leakage=0 m^3/s/Pa").recording
+    gradient = np.degrees(run["body.roll"][-1]) / (run["body.lateral_acceleration"][-1] / 9.80665)
     assert gradient == pytest.approx(3.1, rel=0.15)
 
 

@@ -30,8 +30,8 @@ def test_as_the_engine_stalls_pressure_decays_and_no_chamber_runs_dry():
 def test_as_the_engine_stalls_the_fail_safe_valve_holds_the_front():
     free, sealed = held(STALL), held(STALL, fail_safe=lambda t: float(t < 1.0))
     assert sealed.front[-1] > 2.0 * free.front[-1]
-    # it is shut after 19 ms; until then the pressure valves, open at once, let go a part
-    assert sealed.front[1019] > 0.7 * sealed.front[999]
+    # it is shut after 19 ms; until then the pressure valves, open at once, let go a third
+    assert sealed.front[1019] == pytest.approx(0.68 * sealed.front[999], rel=0.05)
 
 
 def test_a_front_valve_that_is_stuck_open_gives_the_front_no_more_than_the_rear():
