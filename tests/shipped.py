@@ -7,7 +7,8 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from ars_mujoco.bridge.callback import installed, tables_of
+from ars_mujoco.bridge.callback import installed
+from ars_mujoco.bridge.control import tables_of
 from ars_mujoco.recording.recording import Recording
 from ars_mujoco.simulation.simulation import Simulation, simulate
 from ars_mujoco.studies.inputs import read_compared, read_inputs
