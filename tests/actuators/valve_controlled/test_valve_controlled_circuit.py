@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from shipped import recording
 from valve_runs import (
     AT_750,
     FLOW,
@@ -213,3 +214,9 @@ def test_a_sealed_front_motor_lets_go_by_its_leakage_alone(leakage, expected):
     # the rear lets go, and the pump circulates
     assert run.rear[-1] < 40.0
     assert run.supply.front_valve.pressure[-1] == pytest.approx(5e5, rel=0.02)
+
+
+def test_an_s_curve_of_the_front_alone_takes_36_4_kj_of_hydraulic_work():
+    energy = recording("bench_s_curve", "valve_controlled")
+    work = energy["supply.energy.shaft"][-1] - energy["supply.energy.pump"][-1]
+    assert work == pytest.approx(36.4e3, rel=0.05)
