@@ -5,13 +5,15 @@ python tests/fuzz/campaign.py 10000 [FIRST_SEED]    prints how many came to what
 
 import multiprocessing
 import resource
+import signal
 import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-PATIENCE = 20.0  # s
+PATIENCE = 20  # s of computing
+WAITING = 200.0  # s that a trial may take on a machine that is busy with others
 MEMORY = 8 << 30  # bytes of address space
 
 
@@ -43,9 +45,11 @@ class _Worker:
         """What came of `seed`."""
         try:
             self.connection.send(seed)
-            return self.connection.recv() if self.connection.poll(PATIENCE) else ("", "hang", "")
+            return self.connection.recv() if self.connection.poll(WAITING) else ("", "hang", "waits")
         except (EOFError, OSError):
-            return "", "crash", ""
+            self.process.join()
+            is_hang = self.process.exitcode == -signal.SIGXCPU
+            return "", "hang" if is_hang else "crash", f"exit code {self.process.exitcode}"
 
     def end(self) -> None:
         """Kill it."""
@@ -61,6 +65,8 @@ def _work(connection) -> None:
     connection.send("ready")
     while True:
         seed = connection.recv()
+        used = resource.getrusage(resource.RUSAGE_SELF)
+        resource.setrlimit(resource.RLIMIT_CPU, (int(used.ru_utime + used.ru_stime) + PATIENCE, -1))
         with tempfile.TemporaryDirectory() as folder:
             connection.send(tuple(trial.trial(seed, Path(folder))))
 

@@ -117,8 +117,9 @@ def _drive(subject: Subject, random: Random, folder: Path) -> tuple[str, str]:
 def _books(recording: Recording) -> float:
     """Energy that no block finds again, over what crossed the blocks' borders, as the metric `energy_audit_error`.
 
-    A run that is cut short ends in the midst of motion, where the energy in a bar, which is known half a step before
-    its end, is off by its torque times half of its twist over a step: that is told from what is lost.
+    A run that is cut short ends in the midst of motion. There the energy in a car's bar, whose torque is that of the
+    middle of a step, is off by the torque times half of the twist over a step: that is told from what is lost. On the
+    bench the motion is known, and the books close at every step.
     """
     astray, crossed = {"front": 0.0, "rear": 0.0}, 0.0
     for channel in recording.channels.values():
@@ -126,7 +127,7 @@ def _books(recording: Recording) -> float:
         astray[block] = astray.get(block, 0.0) + BALANCE.get(channel.role, 0.0) * (energy[-1] - energy[0])
         crossed += np.abs(np.diff(energy)).sum() if channel.role in CROSSING else 0.0
     for axle in ("front", "rear"):
-        if f"{axle}.energy.bar" in recording.channels:
+        if "body.roll" in recording.channels:
             twist, torque = recording[f"{axle}.bar.twist"], recording[f"{axle}.bar.torque"]
             astray[axle] -= 0.5 * torque[-1] * (twist[-1] - twist[-2])
     return sum(map(abs, astray.values())) / max(crossed, LEAST_CROSSED)
