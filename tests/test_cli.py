@@ -73,7 +73,7 @@ def test_the_sensors_of_a_controller_in_python_are_listed_with_unit_and_meaning(
 
 @pytest.mark.parametrize("kept", ["", "    str(sensors)\n"])
 def test_what_a_controller_prints_stands_beside_the_results(ars, tmp_path, kept):
-    """While it is loaded and while it runs, compiled or in Python."""
+    """While it is loaded and while it runs, whether or not it would compile."""
     command = f"def command(sensors, memory):\n{kept}    print('sample', sensors.time)\n    return 0.0, 0.0\n"
     (tmp_path / "law.py").write_text(f"print('loaded')\n{command}")
     arguments = ("run", "roll_plane_step", "--controller", "law.py", "--set", "duration=2 ms", "--json")

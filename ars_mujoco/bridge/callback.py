@@ -27,7 +27,7 @@ from ars_mujoco.schema.errors import ArsError
 
 _DATA, _MODEL = mujoco_layout.offsets("mjData"), mujoco_layout.offsets("mjModel")
 _TIME, _USERDATA, _QPOS, _QVEL = (_DATA[name] for name in ("time", "userdata", "qpos", "qvel"))
-_NQ, _NV, _NKEY = (_MODEL[name] for name in ("nq", "nv", "nkey"))
+_NUSERDATA, _NQ, _NV, _NKEY = (_MODEL[name] for name in ("nuserdata", "nq", "nv", "nkey"))
 _QPOS0, _KEY_QPOS, _KEY_QVEL = (_MODEL[name] for name in ("qpos0", "key_qpos", "key_qvel"))
 _STATUS = HEADER.names.index("status")
 _NO_BOUND = 1 << 30  # the arrays below are not bounds-checked; their true lengths are the model's
@@ -118,11 +118,14 @@ def _begins_elsewhere(model, data):
 
 
 def _watched(model, data):
+    now = carray(integers(_INSTALLED), (6,))
+    if word(model + _NUSERDATA) != now[1]:
+        return  # another's model
     userdata = carray(doubles(word(data + _USERDATA)), (_NO_BOUND,))
     is_new, status = userdata[0] != MAGIC, userdata[_STATUS]
     elsewhere = is_new and _begins_elsewhere(model, data)
-    now = carray(integers(_INSTALLED), (4,))
-    run((now[0], now[1], now[2], now[3]), model, data, carray(doubles(data + _TIME), (1,))[0])
+    control = now[0], now[1], now[2], now[3], now[4], now[5]
+    run(control, model, data, carray(doubles(data + _TIME), (1,))[0])
     if userdata[0] == MAGIC and elsewhere:
         call(_TELL, data, _ELSEWHERE)
     if userdata[0] == MAGIC and (is_new or status == RUNNING) and userdata[_STATUS] != RUNNING:

@@ -19,18 +19,21 @@ from ars_mujoco.bridge.world import HEADER, MAGIC, OTHER_LAYOUT, RUNNING, place,
 from ars_mujoco.kernels.kernel import interpreted, kernel
 from ars_mujoco.schema.errors import ArsError
 
-_USERDATA = mujoco_layout.offsets("mjData")["userdata"]
+_USERDATA, _NUSERDATA = mujoco_layout.offsets("mjData")["userdata"], mujoco_layout.offsets("mjModel")["nuserdata"]
 _STEP, _STATUS = (HEADER.names.index(name) for name in ("step", "status"))
 
 
 class Control(NamedTuple):
     """C functions void(mjModel*, mjData*): `callback`, and where `law` is not 0, it at the samples of the control unit
-    and then `act`. `sample_time` is where userdata holds the unit's.
+    and then `act`. `sample_time` is where userdata holds the unit's, `size` how many numbers it has, and `version` the
+    layout of the world in it.
 
     In the interpreted twin `callback` is a Python function.
     """
 
     callback: object
+    size: int
+    version: int
     law: int = 0
     act: int = 0
     sample_time: int = 0
@@ -47,22 +50,23 @@ def control_of(rig, model: mujoco.MjModel, data: mujoco.MjData, law=None) -> Con
     if not _carries(model, rig):
         raise ArsError(f"this model was not built for the rig '{rig.NAME}': it carries no world of its layout")
     mujoco_layout.validate(model, data)
+    layout = rig.SIZE, int(rig.VERSION)
     if interpreted:
-        return Control(_in_python(rig, law))
+        return Control(_in_python(rig, law), *layout)
     if not law:
-        return Control(rig.CALLBACK.address)
+        return Control(rig.CALLBACK.address, *layout)
     sample_time = place(rig.WORLD, "parameters", "unit", "sample_time")
-    return Control(rig.SENSE.address, law.sampling(rig), rig.ACT.address, sample_time)
+    return Control(rig.SENSE.address, *layout, law.sampling(rig), rig.ACT.address, sample_time)
 
 
 @kernel
 def run(control, model: int, data: int, time: float) -> None:
     """Call a Control, as a plain tuple, for mjModel and mjData at their addresses."""
-    callback, law, act, sample_time = control
+    callback, size, version, law, act, sample_time = control
     call(callback, model, data)
-    if law != 0:
+    if law != 0 and word(model + _NUSERDATA) == size:
         userdata = carray(doubles(word(data + _USERDATA)), (1 << 30,))
-        if userdata[0] == MAGIC and userdata[_STATUS] == RUNNING:
+        if userdata[0] == MAGIC and userdata[1] == version and userdata[_STATUS] == RUNNING:
             period = max(round(userdata[sample_time] / userdata[_STEP]), 1)
             if round(time / userdata[_STEP]) % period == 0:
                 call(law, model, data)

@@ -24,7 +24,7 @@ from numba import carray
 from ars_mujoco.bridge import mujoco_layout
 from ars_mujoco.bridge.mjdata import SIGNATURE, doubles, record_at, word
 from ars_mujoco.bridge.world import LAW_ASTRAY, LAW_FAILED, place, stop_in
-from ars_mujoco.control.law_fault import compilers_reason, takes_two
+from ars_mujoco.control.law_fault import compilers_reason, prints, takes_two
 from ars_mujoco.control.law_module import SEED, loaded
 from ars_mujoco.control.law_run import MOST, LawRun
 from ars_mujoco.control.reference import ANGLE, STATE, TORQUE, put
@@ -119,6 +119,8 @@ def _compiled(path: Path, content: bytes, function) -> _Compiled | None:
         return _by_program[program]
     if (path, content) not in _not_compiled:
         try:
+            if prints(function):
+                raise TypeError("it prints")
             made = _Compiled(_two_floats(function, is_cached=program is not None))
         except Exception as error:  # numba's own, or what its insides run into
             _not_compiled[path, content] = reason = compilers_reason(error, function, path)

@@ -31,6 +31,8 @@ def compilers_reason(error: Exception, function: object, path: Path) -> str:
     """Why numba does not compile `function`: its own first words, and the line of the file where it stopped."""
     if not inspect.isfunction(function):
         return f"it is an object of {type(function).__name__}, and only functions are compiled"
+    if prints(function):
+        return "it prints"
     lines = [line.strip() for line in str(error).splitlines()]
     lines = [line for line in lines if line and not line.startswith("Failed in nopython mode")]
     text = lines[0] if lines and type(error).__module__.startswith("numba") else f"{type(error).__name__}: {error}"
@@ -40,6 +42,18 @@ def compilers_reason(error: Exception, function: object, path: Path) -> str:
     place = next((line for line in (raised, *lines) if path.name in line), "")
     number = place.rpartition("line " if "line " in place else "(")[2].strip(":)")
     return f"{text} (line {number})" if number else text
+
+
+def prints(function: object, seen: tuple[object, ...] = ()) -> bool:
+    """Whether a function, or a compiled one that it names, prints: native code then takes the interpreter's lock, and
+    has been seen not to give it back.
+    """
+    code = getattr(function, "__code__", None)
+    if code is None or function in seen:
+        return False
+    named = [function.__globals__.get(name) for name in code.co_names]  # type: ignore[attr-defined]
+    compiled = [each.py_func for each in named if hasattr(each, "py_func")]
+    return "print" in code.co_names or any(prints(each, (*seen, function)) for each in compiled)
 
 
 def takes_two(function: object) -> bool:

@@ -1,10 +1,11 @@
 """A law's file as a Python module: loaded afresh for every run, with the modules beside it, and random numbers that
 begin alike.
 
-What is loaded is in `sys.modules` and beside `sys.path` while the run lasts, and one run at a time has these: a law in
-Python holds the interpreter's lock anyhow.
+While the run lasts the module is in `sys.modules` and its folder in `sys.path`, and one run at a time has these: a law
+in Python holds the interpreter's lock anyhow. Nothing is written beside the file.
 """
 
+import importlib
 import os
 import random
 import sys
@@ -36,12 +37,15 @@ def loaded(path: Path, content: bytes) -> Iterator[ModuleType]:
     with _one_at_a_time, _random_numbers():
         theirs = {each: sys.modules.pop(each) for each in _beside(folder)}
         sys.path.insert(0, str(folder))
+        importlib.invalidate_caches()  # a module beside it may have been written just now
+        writes_not, sys.dont_write_bytecode = sys.dont_write_bytecode, True
         sys.modules[name] = module  # where dataclasses look for what the file defines
         try:
             _run(module, content, path)
             sys.modules.update(theirs)
             yield module
         finally:
+            sys.dont_write_bytecode = writes_not
             for each in _beside(folder) - theirs.keys() | {name}:
                 sys.modules.pop(each, None)
             sys.modules.update(theirs)

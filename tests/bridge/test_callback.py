@@ -373,6 +373,22 @@ def test_a_callback_leaves_models_alone_that_are_not_its_own():
     np.testing.assert_array_equal(alone.qpos, beside.qpos)
 
 
+def test_nor_does_a_law_reach_them(tmp_path):
+    """A model without userdata, one of another rig, and one of another system in a world that has begun."""
+    (tmp_path / "law.py").write_text("def command(sensors, memory):\n    str(sensors)\n    return 0.1, 0.1\n")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        mine = simulation_of(read_inputs(ROLL_PLANE, None, str(tmp_path / "law.py")))
+    plain = mujoco.MjModel.from_xml_string("<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody>"
+                                           "</mujoco>")  # fmt: skip
+    other, falling = shipped.driven(shipped.simulation(ROLL_PLANE, "passive"), 0.01), mujoco.MjData(plain)
+    before = other.userdata.copy()
+    with installed(mine.rig, mine.model, mine.start(), mine.law):
+        mujoco.mj_step(plain, falling, 3)
+        mujoco.mj_step(shipped.simulation(ROLL_PLANE, "passive").model, other, 3)
+    np.testing.assert_array_equal(other.userdata, before)
+
+
 @pytest.mark.filterwarnings("ignore:.*another rig")
 def test_a_restored_state_of_another_layout_is_told():
     simulation = shipped.simulation(S_CURVE)

@@ -154,6 +154,19 @@ def test_a_function_that_does_not_compile_runs_in_python_with_a_warning_and_give
     np.testing.assert_array_equal(slow.values, native.values)
 
 
+@pytest.mark.parametrize("jitted", ["", "import numba\n@numba.njit\n"])
+def test_a_function_that_prints_runs_in_python(law, jitted):
+    """Compiled code that prints, itself or in a function that it calls, may keep the interpreter's lock for good."""
+    path = law(
+        f"{jitted}def say(x):\n    print(x)\n\n"
+        "def command(sensors, memory):\n    say(sensors.time)\n    return 0.0, 0.0\n"
+    )
+    with pytest.warns(
+        UserWarning, match="does not compile, so it runs in Python: (it prints|Untyped global name 'say')"
+    ):
+        assert not Law(path).is_native
+
+
 def test_a_function_that_compiles_warns_of_nothing(law):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
