@@ -7,7 +7,7 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from ars_mujoco.bridge.callback import installed
+from ars_mujoco.bridge.callback import installed, tables_of
 from ars_mujoco.recording.recording import Recording
 from ars_mujoco.simulation.simulation import Simulation, simulate
 from ars_mujoco.studies.inputs import read_compared, read_inputs
@@ -40,6 +40,11 @@ def own_copy(shared: Simulation):
     """(simulation, world): a copy with a model of its own, and the initial world in it, both free to change."""
     own = replace(shared, model=copy(shared.model))
     return own, own.model.numeric_data[-own.model.nuserdata :].view(own.rig.WORLD).view(np.recarray)[0]
+
+
+def tables(own: Simulation) -> np.record:
+    """What a simulation reads only, which lies in its model."""
+    return tables_of(own.rig, own.model)
 
 
 def driven(shared: Simulation, seconds: float) -> mujoco.MjData:

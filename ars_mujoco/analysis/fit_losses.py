@@ -1,13 +1,9 @@
 """Fit losses: the loss polynomials of a pump (paper eqs. 21 to 24) from measured points, by least squares.
 
-Signs: the flow is positive with the displacement's, the pressure (outlet over inlet) where it resists such flow, and
-the torque where it drives the shaft. So one rule holds in all four quadrants: what is missing of the flow has gone from
-the high to the low side, and what is left of the torque was paid by the shaft.
+Columns of measured points, their signs and their reader stand in `measurements`.
 """
 
-import csv
 import json
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
@@ -18,49 +14,20 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ars_mujoco.analysis.figure import ACCENT, DARK, label, save
+from ars_mujoco.analysis.measurements import UNITS, Measurements, read_measurements
 from ars_mujoco.hydraulics.loss_polynomial import HIGHEST, FlowLoss, LossPolynomial, TorqueLoss, Validity
 from ars_mujoco.recording.folder import write_whole
 from ars_mujoco.schema.errors import InputError
-from ars_mujoco.schema.suggestion import did_you_mean
+from ars_mujoco.schema.quotation import quoted
 from ars_mujoco.schema.units import measure, to_si
 
 SCHEMA_VERSION = 1
 NAME = "fit_losses"
 
-UNITS = {
-    "speed": "rad/s", "pressure": "Pa", "displacement": "m^3/rad", "stroke": "1", "flow": "m^3/s", "torque": "Nm",
-}  # fmt: skip
-LIMITS = {"speed": {"gt": 0.0}}
-TITLE = re.compile(r"\s*(\w+)\s*(?:\(\s*(.*?)\s*\))?\s*")  # of a column: name (unit)
 WORST_CONDITION = 1e10  # of the scaled least squares, beyond which the points do not tell the coefficients apart
 GRID = 21  # points along each side of the range, where the polynomial is looked at for negative losses
 
 Orders = tuple[int, int, int]  # p, q, r of stroke, speed and pressure
-
-
-@dataclass(frozen=True)
-class Measurements:
-    """Measured points, (n,) each: speed rad/s, pressure Pa, stroke 1, flow m^3/s, torque Nm; `displacement` (m^3/rad)
-    is that of the full stroke.
-    """
-
-    speed: np.ndarray
-    pressure: np.ndarray
-    stroke: np.ndarray
-    flow: np.ndarray
-    torque: np.ndarray
-    displacement: float
-
-    @property
-    def flow_loss(self) -> np.ndarray:
-        """Flow (n,) m^3/s lost from the high to the low side (eq. 24)."""
-        missing = self.stroke * self.displacement * self.speed - self.flow
-        return np.where(self.pressure >= 0.0, missing, -missing)
-
-    @property
-    def torque_loss(self) -> np.ndarray:
-        """Torque (n,) Nm beyond the ideal one."""
-        return self.torque - self.stroke * self.displacement * self.pressure
 
 
 @dataclass(frozen=True)
@@ -86,84 +53,6 @@ class Fit:
         return float(1.0 - np.sum(self.residuals**2) / variance) if variance > 0.0 else None
 
 
-def read_measurements(path: Path, displacement: float | None = None) -> Measurements:
-    """The points of a CSV file whose header names columns with units: "speed (rpm),pressure (bar),...".
-
-    Columns are speed, pressure, flow, torque and displacement or stroke; others are ignored. `displacement` (m^3/rad)
-    is that of the full stroke, else the largest in the file. Raises InputError with every problem found.
-    """
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            rows = [(number, row) for number, row in enumerate(csv.reader(file), 1) if any(map(str.strip, row))]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
-    if not rows:
-        raise InputError(f"{path}: is empty")
-    (line, header), *rows = rows
-    units = _units(f"{path}:{line}", header)
-    if not rows:
-        raise InputError(f"{path}: holds a header but no points")
-    values = _values(path, rows, units)
-    if "stroke" in values:
-        if displacement is None:
-            raise InputError(f"{path}: a stroke needs the full displacement: --displacement '1.8 cm^3/rev'")
-    else:
-        sizes = values.pop("displacement")
-        displacement = displacement or float(np.abs(sizes).max())
-        if displacement == 0.0:
-            raise InputError(f"{path}: displacement: is zero at every point")
-        values["stroke"] = sizes / displacement
-    if (largest := np.abs(values["stroke"]).max()) > 1.0:
-        raise InputError(f"{path}: a stroke of {100 * largest:.4g} % is over the full one")
-    return Measurements(**values, displacement=displacement)
-
-
-def _units(place: str, header: list[str]) -> dict[str, tuple[int, str]]:
-    """Column and unit of each quantity."""
-    found, problems = {}, []
-    for column, title in enumerate(header):
-        name, unit = TITLE.fullmatch(title).groups() if TITLE.fullmatch(title) else (title, None)
-        if name not in UNITS:
-            continue
-        if name in found:
-            problems.append(f"{name}: stands twice")
-        found[name] = column, unit or ""
-        try:
-            to_si(f"1 {unit or ''}", UNITS[name])
-        except ValueError as error:
-            problems.append(f"{name}: '{unit or ''}': {error}")
-    missing = {"speed", "pressure", "flow", "torque"} - set(found)
-    if {"displacement", "stroke"} <= set(found):
-        problems.append("displacement and stroke: name one of them")
-    if not {"displacement", "stroke"} & set(found):
-        missing.add("displacement")
-    names = [title.split("(")[0].strip() for title in header]
-    unknown = [name for name in names if name not in UNITS]
-    problems += [
-        f"column '{name} (UNIT)' is missing{did_you_mean(name, unknown)}; the header has {', '.join(names)}"
-        for name in UNITS
-        if name in missing
-    ]
-    if problems:
-        raise InputError(*(f"{place}: {problem}" for problem in problems))
-    return found
-
-
-def _values(path: Path, rows: list[tuple[int, list[str]]], units: dict[str, tuple[int, str]]) -> dict[str, np.ndarray]:
-    """The columns in SI."""
-    values, problems = {name: [] for name in units}, []
-    for line, row in rows:
-        for name, (column, unit) in units.items():
-            cell = row[column].strip() if column < len(row) else ""
-            try:
-                values[name].append(to_si(f"{cell} {unit}", UNITS[name], **LIMITS.get(name, {})))
-            except ValueError as error:
-                problems.append(f"{path}:{line}: {name}: '{cell}': {error}")
-    if problems:
-        raise InputError(*problems)
-    return {name: np.array(column) for name, column in values.items()}
-
-
 def fit(points: Measurements, orders: Orders) -> tuple[Fit, Fit]:
     """The polynomials of flow and torque loss, of these orders.
 
@@ -174,7 +63,7 @@ def fit(points: Measurements, orders: Orders) -> tuple[Fit, Fit]:
     _check_enough(sizes, orders)
     normal = {name: 1.0 if name == "stroke" else float(values.max()) for name, values in sizes.items()}
     validity = Validity.model_construct(
-        **{name: (float(values.min()), float(values.max())) for name, values in sizes.items()}
+        **{name: _range(values, 1.0 if name == "stroke" else np.inf) for name, values in sizes.items()}
     )
     x, n, y = (values / normal[name] for name, values in sizes.items())
     design = np.column_stack([x**i * n**j * y**k for i, j, k in _terms(orders)])
@@ -185,6 +74,11 @@ def fit(points: Measurements, orders: Orders) -> tuple[Fit, Fit]:
         _least_squares(FlowLoss, flow, orders, design, points.flow_loss),
         _least_squares(TorqueLoss, torque, orders, design, points.torque_loss),
     )
+
+
+def _range(values: np.ndarray, most: float) -> tuple[float, float]:
+    """Least and largest of `values`, neither over `most`."""
+    return min(float(values.min()), most), min(float(values.max()), most)
 
 
 def _terms(orders: Orders) -> list[Orders]:
@@ -212,6 +106,10 @@ def _least_squares(
     kind: type[LossPolynomial], shared: Mapping[str, Any], orders: Orders, design: np.ndarray, measured: np.ndarray
 ) -> Fit:
     """Least squares with the columns of `design` (n, m) scaled to the same size."""
+    with np.errstate(all="ignore"):  # told below
+        relative = measured / shared["norm"]
+    if not (np.isfinite(design).all() and np.isfinite(relative).all()):
+        raise InputError("the points lie too far apart, or too near to zero, for a fit")
     scale = np.linalg.norm(design, axis=0)
     _, singular, right = np.linalg.svd(design / scale, full_matrices=False)
     condition = singular[0] / singular[-1] if singular[-1] > 0.0 else np.inf
@@ -220,7 +118,6 @@ def _least_squares(
             f"the points do not tell the {len(scale)} coefficients apart (condition number {condition:.1e}): "
             "measure each stroke, speed and pressure with each other, or lower an order"
         )
-    relative = measured / shared["norm"]
     scaled, *_ = np.linalg.lstsq(design / scale, relative, rcond=None)
     names = ["k_{}{}{}".format(*term) for term in _terms(orders)]
     residuals = measured - shared["norm"] * (design / scale @ scaled)
@@ -243,14 +140,20 @@ def _least(loss: LossPolynomial) -> float:
 
 
 def fit_losses(
-    path: Path, orders: Orders, folder: Path, displacement: str | None = None, scale_to: str | None = None
+    path: Path,
+    orders: Orders,
+    folder: Path,
+    displacement: str | None = None,
+    scale_to: str | None = None,
+    units: str | None = None,
 ) -> dict[str, Any]:
     """Fit both losses to the points in `path`; write losses.yaml, a figure and the numbers into `folder`.
 
     `displacement` is that of the full stroke and `scale_to` that of a similar pump for which losses.yaml is written,
-    both with units. Returns the numbers. Raises InputError before anything is written.
+    both with units; `units` of columns whose header has none are written speed=rpm,pressure=bar. Returns the numbers.
+    Raises InputError before anything is written.
     """
-    points = read_measurements(path, _displacement("--displacement", displacement))
+    points = read_measurements(path, _displacement("--displacement", displacement), _units(units))
     written_for = _displacement("--scale-to", scale_to) or points.displacement
     try:
         flow, torque = fit(points, orders)
@@ -261,6 +164,7 @@ def fit_losses(
         "schema_version": SCHEMA_VERSION,
         "data": str(path),
         "points": len(points.speed),
+        "largest_stroke": float(np.abs(points.stroke).max()),
         "orders": list(orders),
         "displacement": {"value": points.displacement, "unit": "m^3/rad"},
         "flow_loss": _numbers(flow, "m^3/s"),
@@ -285,6 +189,13 @@ def _displacement(option: str, text: str | None) -> float | None:
         return None if text is None else to_si(text, UNITS["displacement"], gt=0.0)
     except ValueError as error:
         raise InputError(f"{option} '{text}': {error}") from None
+
+
+def _units(text: str | None) -> dict[str, str]:
+    pairs = [pair.partition("=") for pair in text.split(",")] if text else []
+    if not all(name.strip() and unit.strip() for name, _, unit in pairs):
+        raise InputError(f"--units {quoted(text)}: written as column=unit, such as speed=rpm,pressure=bar")
+    return {name.strip(): unit.strip() for name, _, unit in pairs}
 
 
 def _numbers(fit: Fit, unit: str) -> dict[str, Any]:
@@ -327,11 +238,12 @@ def _told(numbers: Mapping[str, Any], factor: float, unit: str) -> dict[str, str
 
 def remarks(result: Mapping[str, Any]) -> list[str]:
     """What has to be said about the fits."""
-    coefficients = len(_terms(result["orders"]))
-    exact = (
-        f"{coefficients} points for {coefficients} coefficients: the fit goes through each, errors say nothing of it"
-    )
-    return [exact] * (result["points"] == coefficients) + [
+    count, told = len(_terms(result["orders"])), []
+    if result["points"] == count:
+        told.append(f"{count} points for {count} coefficients: the fit goes through each, errors say nothing of it")
+    if (most := result["largest_stroke"]) > 1.0:
+        told.append(f"the largest stroke is {100 * most:.4g} % of the full one: taken for scatter, as it is")
+    return told + [
         f"the {name.replace('_', ' ')} is negative somewhere in its range; the simulation takes zero there"
         for name in ("flow_loss", "torque_loss")
         if result[name]["least_loss"] < 0.0

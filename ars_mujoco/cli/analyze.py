@@ -77,7 +77,7 @@ def fit_losses(
         typer.Argument(
             metavar="DATA.csv",
             help="Measured points; the header names speed, pressure, displacement (or stroke), flow and torque with "
-            "units: 'speed (rpm),pressure (bar),...'.",
+            "units: 'speed (rpm),pressure (bar),...'; a Parquet file does too.",
         ),
     ],
     orders: Annotated[tuple[int, int, int], typer.Option(help="Of stroke, speed and pressure.", metavar="P Q R")],
@@ -87,6 +87,10 @@ def fit_losses(
     scale_to: Annotated[
         str | None, typer.Option(help="Displacement of a similar pump that losses.yaml is to be for.")
     ] = None,
+    units: Annotated[
+        str | None,
+        typer.Option(metavar="COLUMN=UNIT,...", help="Of columns whose header has none: speed=rpm,pressure=bar,..."),
+    ] = None,
     out: Annotated[Path | None, typer.Option(help="Folder of the results; else runs/fit_losses.")] = None,
     as_json: Json = False,
 ) -> None:
@@ -94,7 +98,7 @@ def fit_losses(
     with extra("fit-losses"):
         from ars_mujoco.analysis import fit_losses as fitting
     folder = out or RUNS / fitting.NAME
-    result = fitting.fit_losses(data, orders, folder, displacement, scale_to)
+    result = fitting.fit_losses(data, orders, folder, displacement, scale_to, units)
     if as_json:
         print_json({"folder": str(folder), **result})
         return

@@ -74,9 +74,9 @@ def _problems(times, values, join) -> list[str]:
         problems.append(f"a signal has 1 to {KNOTS} knots, not {len(times)}")
     if not np.all(np.isfinite([*times, *values])):
         problems.append("times and values of a signal must be finite")
-    for before, after in zip(times, times[1:], strict=False):
-        if not after > before:
-            problems.append(f"times of a signal must rise: {after} s comes after {before} s")
+    pairs = zip(times, times[1:], strict=False)
+    if first := next(((before, after) for before, after in pairs if not after > before), None):
+        problems.append(f"times of a signal must rise: {first[1]} s comes after {first[0]} s")
     return problems
 
 

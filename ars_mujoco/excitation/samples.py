@@ -1,26 +1,36 @@
 """Samples: a recorded input, read from a table of times and values."""
 
-import csv
-import hashlib
-import re
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from pydantic import PlainSerializer, PlainValidator
+from pydantic import PlainSerializer, PlainValidator, ValidationError
 
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.schema.document import Written
-from ars_mujoco.schema.units import split, to_si
+from ars_mujoco.schema.parameters import Parameters
+from ars_mujoco.schema.quotation import quoted
+from ars_mujoco.schema.table import Column, Table, read_table
 
 MOST = 10_000  # samples: 10 s at 1 kHz, 100 s at 100 Hz
 
 SAMPLES = np.dtype([("count", "f8"), ("times", "f8", MOST), ("values", "f8", MOST)])
 
 HEADER = "two columns, each with its name and unit, such as 'time (s),travel (mm)'"
-NAME_AND_UNIT = re.compile(r".*\((.*)\)\s*")
+
+
+class Named(Parameters):
+    """A recorded input of a table with other columns, or without units: `recorded: {file: log.csv, column: steer}`."""
+
+    file: str
+    column: str
+    time: str | None = None  # else the first column
+    units: dict[str, str] = {}  # by the column's name, where its header has none
+
+
+NAMING = "{file: log.csv, column: travel, units: {time: s, travel: mm}}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,27 +57,23 @@ def SamplesOf(unit: str):  # noqa: N802 (reads as a type)
     ]
 
 
-def read_samples(name: str, unit: str) -> Samples:
-    """The samples of the CSV file `name`, whose second column has the dimension of `unit`; its times rise.
+def read_samples(named: str | dict, unit: str) -> Samples:
+    """The samples of a file that is `named`, or is one with what `Named` has; the values have the dimension of `unit`.
 
-    A relative path starts at the folder of the file it is written in. Raises ValueError with the first line that is
-    wrong, and with what is allowed there.
+    Times rise. A relative path starts at the folder of the file it is written in. Raises ValueError with the first
+    line that is wrong, and with what is allowed there.
     """
-    path = (name.folder if isinstance(name, Written) else Path()) / str(name)
-    try:
-        content = path.read_bytes()
-        lines = content.decode("utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise ValueError(f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
-    header, *rows = [(line, cells) for line, cells in enumerate(csv.reader(lines), 1) if cells] or [(1, [])]
-    scales = _scales(*header, unit)
-    if not 1 <= len(rows) <= MOST:
-        raise ValueError(f"holds {len(rows)} samples; allowed: 1 to {MOST}")
-    table = np.array([_row(line, cells) for line, cells in rows]) * scales
-    for (line, cells), rise in zip(rows[1:], np.diff(table[:, 0]), strict=True):
+    wanted = _wanted(named)
+    folder = wanted.file.folder if isinstance(wanted.file, Written) else Path()
+    table = read_table(folder / str(wanted.file)).with_units(wanted.units)
+    time, value = _columns(table, wanted)
+    if not 1 <= len(table.lines) <= MOST:
+        raise ValueError(f"holds {len(table.lines)} samples; allowed: 1 to {MOST}")
+    times, values = table.si(time, "s"), table.si(value, unit)
+    for line, cell, rise in zip(table.lines[1:], time.cells[1:], np.diff(times), strict=True):
         if not rise > 0.0:
-            raise ValueError(f"line {line}: '{cells[0]}': times must rise from line to line")
-    return Samples(str(name), hashlib.sha256(content).hexdigest(), table[:, 0], table[:, 1])
+            raise ValueError(f"line {line}: {quoted(cell)}: times must rise from line to line")
+    return Samples(str(wanted.file), table.sha256, times, values)
 
 
 @kernel
@@ -88,31 +94,20 @@ def sampled(p, t: float) -> float:
     return p.values[low] + share * (p.values[high] - p.values[low])
 
 
-def _scales(line: int, header: list[str], unit: str) -> list[float]:
-    """Size of the units of the time and the value column, in SI."""
-    units = [NAME_AND_UNIT.fullmatch(cell) for cell in header]
-    if len(units) != 2 or not all(units):
-        raise ValueError(f"line {line}: needs {HEADER}")
-    scales = []
-    for match, wanted in zip(units, ("s", unit), strict=True):
-        try:
-            scales.append(to_si(f"1 {match[1]}", wanted))
-        except ValueError as error:
-            raise ValueError(f"line {line}: '{match[0].strip()}': {error}") from None
-    return scales
+def _wanted(named: str | dict) -> Named:
+    if isinstance(named, str):
+        return Named.model_construct(file=named, column="")
+    try:
+        wanted = Named.model_validate(named)
+    except ValidationError:
+        raise ValueError("needs a file's name, or a block of file, column, and where needed time and units") from None
+    return wanted.model_copy(update={"file": named["file"]})  # with the folder that it knows
 
 
-def _row(line: int, cells: list[str]) -> list[float]:
-    """Time and value of a line, in the units of their columns."""
-    if len(cells) != 2:
-        raise ValueError(f"line {line}: needs a time and a value, not {len(cells)} columns")
-    numbers = []
-    for cell in cells:
-        try:
-            number, unit = split(cell)
-        except ValueError as error:
-            raise ValueError(f"line {line}: '{cell}': {error}") from None
-        if unit:
-            raise ValueError(f"line {line}: '{cell}': not a bare number; the unit stands in the header")
-        numbers.append(number)
-    return numbers
+def _columns(table: Table, wanted: Named) -> tuple[Column, Column]:
+    """The columns of times and of values."""
+    if not wanted.column:
+        if len(table.columns) != 2 or any(each.unit is None for each in table.columns):
+            raise ValueError(f"line {table.header}: needs {HEADER}; of more or others name one: {NAMING}")
+        return table.columns
+    return table.column(wanted.time) if wanted.time else table.columns[0], table.column(wanted.column)

@@ -16,11 +16,21 @@ MARGIN = 0.92  # of the stable step: a state's own eigenvalue moves a little as 
 RESOLVED = 1.0  # rad a substep, of the fastest oscillation
 
 
+class TooFastError(InputError):
+    """Equations whose `fastest` eigenvalue (1/s) is too fast for a step (s)."""
+
+    def __init__(self, fastest: float, step: float):
+        self.fastest = fastest
+        super().__init__(
+            f"the circuit's fastest eigenvalue, {fastest:.2g} 1/s, needs more than {MOST} substeps of {1e3 * step:g} ms"
+        )
+
+
 def fewest_substeps(slopes: Iterable[np.ndarray], step: float) -> int:
     """The fewest substeps of a physics step (s) in which all that decays does decay, and oscillations are resolved.
 
     `slopes` are matrices (n, n) of the derivatives' slopes by the states (1/s), wherever the equations are stiffest.
-    Raises InputError where more than MOST are needed.
+    Raises TooFastError where more than MOST are needed.
     """
     eigenvalues = np.concatenate([np.linalg.eigvals(each) for each in slopes])
     decaying = eigenvalues[eigenvalues.real <= 0.0] * step
@@ -29,10 +39,7 @@ def fewest_substeps(slopes: Iterable[np.ndarray], step: float) -> int:
         if np.abs(amplification(z)).max() <= 1.0 and np.abs(z.imag).max() <= RESOLVED:
             return count
     fastest = np.abs(eigenvalues).max()
-    raise InputError(
-        f"the circuit's fastest eigenvalue, {fastest:.2g} 1/s, needs more than {MOST} substeps of {1e3 * step:g} ms; "
-        "a capacitance, an inertia or a friction speed is too small, or a rate or gain too large"
-    )
+    raise TooFastError(float(fastest), step)
 
 
 def amplification(z: np.ndarray) -> np.ndarray:

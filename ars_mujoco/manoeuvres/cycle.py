@@ -14,15 +14,24 @@ from pydantic import (
     field_validator,
 )
 
+from ars_mujoco.excitation.course import Course
 from ars_mujoco.excitation.excitation import ExcitationOf
 from ars_mujoco.excitation.knots import KnotsOf, signal
+from ars_mujoco.excitation.samples import SamplesOf
 from ars_mujoco.metrics.expectation import Limit, limits
 from ars_mujoco.roads import bump as road
 from ars_mujoco.schema.parameters import Parameters, quantity
 from ars_mujoco.schema.units import Unit
 
 Rig = Literal["bench", "roll_plane", "sedan"]
-SHORTEST = 0.001  # s, one physics step
+SHORTEST, LONGEST = 0.001, 3600.0  # s; one physics step, and what one wants to look at
+
+
+class LateralAcceleration(Course):
+    """The lateral acceleration of a path over time."""
+
+    knots: KnotsOf("m/s^2").model_fields["knots"].annotation | None = None
+    recorded: SamplesOf("m/s^2") | None = None  # a table of times and values
 
 
 class Follow(Parameters):
@@ -30,7 +39,7 @@ class Follow(Parameters):
 
     rig: ClassVar[Rig] = "sedan"
     kind: Literal["follow"]
-    lateral_acceleration: KnotsOf("m/s^2")
+    lateral_acceleration: LateralAcceleration
     speed: KnotsOf("m/s", gt=0) | None = None  # where it changes; else the cycle's
 
 
@@ -137,7 +146,7 @@ class Cycle(Parameters):
     title: str
     description: str
     rig: Rig
-    duration: float = quantity("s", ge=SHORTEST)
+    duration: float = quantity("s", ge=SHORTEST, le=LONGEST)
     manoeuvre: Manoeuvre
     speed: float | None = quantity("m/s", gt=0, default=None, validate_default=True)  # initial and held; of the sedan
     road: Road = Road()
@@ -221,6 +230,8 @@ def with_inputs(inputs: Mapping[str, Any]) -> type[Cycle]:
 
 def _side(side: object) -> float:
     sides = {"left": 1.0, "right": -1.0}
+    if not isinstance(side, str):
+        raise ValueError("needs a text; allowed: left, right")
     if side not in sides:
         raise ValueError("unknown; allowed: left, right")
     return sides[side]

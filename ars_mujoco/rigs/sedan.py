@@ -18,6 +18,7 @@ from ars_mujoco.control import reference
 from ars_mujoco.control.reference import SensorOutput, commanded, own_reference, read_accelerometer
 from ars_mujoco.driving.driver import Driver, DriverOutput, DriverState, drive, preview
 from ars_mujoco.excitation.knots import SIGNAL, slope, value
+from ars_mujoco.excitation.samples import SAMPLES, sampled
 from ars_mujoco.kernels.kernel import kernel
 from ars_mujoco.rigs.plots import SEDAN, SEDAN_EVENTS
 from ars_mujoco.rigs.rig import Frame
@@ -101,6 +102,7 @@ STATE = [
     ("velocity", "f8", 2),  # of the sprung centre of gravity in the road plane one step ago, m/s
     ("running", "f8"),  # 1 once there is such a velocity
 ]
+TABLES = [("demand", SAMPLES)]
 
 
 def addresses(model: mujoco.MjModel) -> dict:
@@ -166,7 +168,7 @@ def act(world, mj, tables, system) -> None:
     speed = value(p.speed, mj.time)
     steer, front_torque, rear_torque = drive(
         p.driver, now.driver, later.driver, out.driver, h,
-        _demand(p, mj.time), _demand(p, mj.time + preview(p.driver, body.speed)),
+        _demand(p, tables, mj.time), _demand(p, tables, mj.time + preview(p.driver, body.speed)),
         speed, slope(p.speed, mj.time), body.speed, body.yaw_rate, body.yaw + body.sideslip,
     )  # fmt: skip
     rates = _angular_velocity(mj, int(at.body))
@@ -190,9 +192,9 @@ def act(world, mj, tables, system) -> None:
 
 
 @kernel
-def _demand(p, time):
-    # what the driver is asked for: curvature (1/m), or in open loop the steering angle (rad)
-    demand = value(p.demand, time)
+def _demand(p, tables, time):
+    # what the driver is asked for: curvature (1/m), or in open loop the steering angle (rad); samples come first
+    demand = sampled(tables.demand, time) if tables.demand.count > 0.0 else value(p.demand, time)
     return demand / max(value(p.speed, time), WALKING) ** 2 if p.demand_over_speed == 1.0 else demand
 
 
@@ -266,4 +268,4 @@ def _corner(p, settings, now, later, out, mj, rates, i, h):
     return fx + fy + fz
 
 
-FRAME = Frame("sedan", PARAMETERS, STATE, Output, bars.Output, step, sense, act, addresses, SEDAN, SEDAN_EVENTS)
+FRAME = Frame("sedan", PARAMETERS, STATE, Output, bars.Output, step, sense, act, addresses, SEDAN, SEDAN_EVENTS, TABLES)

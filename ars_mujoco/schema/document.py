@@ -6,9 +6,8 @@ not reinterpreted) and an error quotes what stands in the file.
 
 import hashlib
 import os
-import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -18,32 +17,30 @@ from pydantic import TypeAdapter, ValidationError
 from ars_mujoco.schema import library
 from ars_mujoco.schema.errors import InputError
 from ars_mujoco.schema.parameters import Parameters
-from ars_mujoco.schema.suggestion import did_you_mean
-from ars_mujoco.schema.units import Unit, allowed
+from ars_mujoco.schema.problem import Keys, dotted, message
+from ars_mujoco.schema.quotation import is_unseen, quoted, seen
+from ars_mujoco.schema.source import content
 
-Keys = tuple[str | int, ...]  # the way from a file's root to one of its values
+LARGEST = 1_000_000  # bytes of a file
+MOST_VALUES = 50_000  # that a file holds, each counted wherever an alias or a merge repeats it
+MOST_PROBLEMS = 30  # that an error lists
+LAID_OUT = "\n\t"  # characters that are not seen and belong to texts
 
 PLAIN_TAGS = {"tag:yaml.org,2002:" + kind for kind in ("str", "seq", "map")}
-
-NEEDS = {
-    "model_type": "needs a block of keys",
-    "model_attributes_type": "needs a block of keys",
-    "dict_type": "needs a block of keys",
-    "list_type": "needs a list",
-    "tuple_type": "needs a list",
-    "string_type": "needs a text",
-}
 
 
 @dataclass(frozen=True)
 class Input:
-    """A file as it was used: its validated `value`, `name`, `path`, the `sha256` of its bytes, and the overrides."""
+    """A file as it was used: its validated `value`, `name`, `path`, the `sha256` of its bytes, and the overrides, of
+    which `idle` found the file as they would have it.
+    """
 
     value: Any
     name: str
     path: Path
     sha256: str
     overrides: tuple[str, ...] = ()
+    idle: tuple[str, ...] = ()
 
 
 class Written(str):
@@ -55,6 +52,23 @@ class Written(str):
         written = super().__new__(cls, text)
         written.folder = folder
         return written
+
+
+@dataclass
+class Place:
+    """Where a value came from, a line of the file or an override, and the places of what it holds."""
+
+    origin: int | str
+    inner: "dict[str | int, Place]" = field(default_factory=dict)
+
+    def of(self, keys: Keys) -> "Place":
+        """The place of `keys`, or of the last of them that has one."""
+        place = self
+        for key in keys:
+            if key not in place.inner:
+                break
+            place = place.inner[key]
+        return place
 
 
 @dataclass(frozen=True)
@@ -85,16 +99,20 @@ def read(
     """
     path, overrides = library.find(kind, name_or_path, beside), tuple(overrides)
     try:
-        content = path.read_bytes()
-        document = Document(_shown(path), content.decode(), path.parent)
-    except (OSError, UnicodeDecodeError) as error:
+        found = content(path, LARGEST)
+        document = Document(_shown(path), found.decode(), path.parent)
+    except UnicodeDecodeError as error:
         raise InputError(f"{_shown(path)}: cannot be read: {error}") from None
+    except ValueError as error:
+        raise InputError(f"{_shown(path)}: {error}") from None
     if document.tree == {}:
         raise InputError(f"{_shown(path)}: is empty")
+    before = document.without_overrides(schema) if overrides else None
     for each in overrides:
         document.override(each)
-    texts = tuple(each.text for each in overrides)
-    return Input(document.validate(schema), path.stem, path, hashlib.sha256(content).hexdigest(), texts)
+    value, texts = document.validate(schema), tuple(each.text for each in overrides)
+    idle = tuple(each.text for each in overrides if before and _held(before, each.keys) == _held(value, each.keys))
+    return Input(value, path.stem, path, hashlib.sha256(found).hexdigest(), texts, idle)
 
 
 class Document:
@@ -104,10 +122,10 @@ class Document:
         """Parse `text`, a file's in `folder`; `name` is what errors call it. Raises InputError where it is not YAML."""
         self.name, self.folder = name, folder
         self._problems: list[tuple[int | str, str]] = []  # (origin, message)
-        self._origins: dict[Keys, int | str] = {(): 1}  # a line of the file, or an override
+        self._places, self._count = Place(1), 0
         try:
             root = yaml.compose(text, Loader=yaml.BaseLoader)
-            tree = self._value(root, ()) if root else None
+            tree = self._value(root, (), self._places) if root else None
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             raise InputError(f"{name}:{mark.line + 1}: {error.problem or error.context}") from None
@@ -119,20 +137,26 @@ class Document:
 
     def override(self, setting: Override) -> None:
         """Set one value; blocks missing on the way to it are made, for the schema to judge."""
-        *way, last = keys = setting.keys
-        block = self.tree
-        for depth, key in enumerate(way, 1):
+        *way, last = setting.keys
+        block, place = self.tree, self._places
+        for key in way:
             if isinstance(block, dict) and not block.get(key):
-                block[key] = {}
-                self._origins[keys[:depth]] = setting.text
+                block[key], place.inner[key] = {}, Place(setting.text)
             block = block[key] if isinstance(block, dict) else None
+            place = place.inner.get(key, place)
         if not isinstance(block, dict):
-            self._problems.append((setting.text, f"{_dotted(tuple(way))}holds no keys"))
+            self._problems.append((setting.text, f"{dotted(tuple(way))}holds no keys"))
             return
-        self._forget(keys)
-        self._origins[keys] = setting.text
+        place.inner[last] = Place(setting.text)
         is_collection = setting.value[:1] in ("[", "{")
         block[last] = Document(setting.text, setting.value).tree if is_collection else setting.value or None
+
+    def without_overrides(self, schema: Any) -> Any:
+        """The tree as `schema`, None where it is none yet; before any override."""
+        try:
+            return TypeAdapter(schema).validate_python(self.tree)
+        except ValidationError:
+            return None
 
     def validate(self, schema: Any) -> Any:
         """The tree as `schema`. Raises InputError with every problem, in the order of the lines."""
@@ -141,51 +165,78 @@ class Document:
         try:
             value = TypeAdapter(schema).validate_python(self.tree, context=schemas)
         except ValidationError as error:
-            self._problems += [self._problem(dict(each), schemas) for each in error.errors(include_url=False)]
+            found = [(*self._follow(each), each) for each in map(dict, error.errors(include_url=False))]
+            found.sort(key=lambda each: _in_order(self._places.of(each[0]).origin))
+            for keys, block, value, each in found[:MOST_PROBLEMS]:
+                told = dotted(keys) + message(each, keys, value, schemas.get(id(block)))
+                self._problems.append((self._places.of(keys).origin, told))
+            self._problems += [(str(self.name), f"and {len(found) - MOST_PROBLEMS} more")] * (
+                len(found) > MOST_PROBLEMS
+            )
         if self._problems:
-            lines_first = sorted(self._problems, key=lambda problem: (isinstance(problem[0], str), problem[0]))
-            raise InputError(*(f"{self._place(origin)}: {message}" for origin, message in lines_first))
+            self._problems.sort(key=lambda problem: _in_order(problem[0]))
+            raise InputError(*(f"{self._place(origin)}: {message}" for origin, message in self._problems))
         return value
 
-    def _value(self, node: yaml.Node, keys: Keys) -> Any:
+    def _value(self, node: yaml.Node, keys: Keys, place: Place) -> Any:
         line = node.start_mark.line + 1
-        self._origins.setdefault(keys, line)
+        self._count += 1
+        if self._count > MOST_VALUES:
+            raise InputError(f"{self.name}: holds more than {MOST_VALUES} values, those counted that aliases repeat")
         if node.tag not in PLAIN_TAGS:
-            self._problems.append((line, f"{_dotted(keys)}tag '{node.tag}' is not read"))
+            self._problems.append((line, f"{dotted(keys)}tag {quoted(node.tag)} is not read"))
         if isinstance(node, yaml.MappingNode):
-            return self._block(node, keys)
+            return self._block(node, keys, place)
         if isinstance(node, yaml.SequenceNode):
-            return [self._value(each, (*keys, index)) for index, each in enumerate(node.value)]
+            return [self._item(each, (*keys, index), place) for index, each in enumerate(node.value)]
+        self._check_seen(node.value, line, keys)
         return None if node.style is None and node.value in ("", "~", "null") else Written(node.value, self.folder)
 
-    def _block(self, node: yaml.MappingNode, keys: Keys) -> dict[str, Any]:
+    def _item(self, node: yaml.Node, keys: Keys, place: Place) -> Any:
+        """A value of a block or a list, whose own place it gets anew."""
+        place.inner[keys[-1]] = Place(node.start_mark.line + 1)
+        return self._value(node, keys, place.inner[keys[-1]])
+
+    def _block(self, node: yaml.MappingNode, keys: Keys, place: Place) -> dict[str, Any]:
         block: dict[str, Any] = {}
         lines: dict[str, int] = {}
         # what `<<` brings in comes first, for the block's own keys to replace
         for key, value in sorted(node.value, key=lambda pair: pair[0].value != "<<"):
             name, line = str(key.value), key.start_mark.line + 1
-            if name == "<<" and isinstance(value, yaml.MappingNode):
-                block |= self._block(value, keys)
+            if name == "<<":
+                block |= self._merged(value, keys, place)
                 continue
             if name in lines:
-                self._problems.append((line, f"{_dotted((*keys, name))}stands twice; first on line {lines[name]}"))
-            self._forget((*keys, name))
-            lines[name] = self._origins[*keys, name] = line
-            block[name] = self._value(value, (*keys, name))
+                self._problems.append((line, f"{dotted((*keys, name))}stands twice; first on line {lines[name]}"))
+            self._check_seen(name, line, keys)
+            lines[name] = line
+            block[name] = self._item(value, (*keys, name), place)
+            place.inner[name].origin = line
         return block
 
-    def _forget(self, keys: Keys) -> None:
-        """Drop the origins of a value that is replaced."""
-        self._origins = {each: origin for each, origin in self._origins.items() if each[: len(keys)] != keys}
+    def _merged(self, node: yaml.Node, keys: Keys, place: Place) -> dict[str, Any]:
+        """The block that a merge brings in, or the blocks of a list, of which an earlier one counts before a later."""
+        blocks = node.value if isinstance(node, yaml.SequenceNode) else [node]
+        merged: dict[str, Any] = {}
+        for each in reversed(blocks):
+            if isinstance(each, yaml.MappingNode):
+                self._count += 1  # also where it is empty
+                merged |= self._block(each, keys, place)
+            else:
+                line = each.start_mark.line + 1
+                self._problems.append(
+                    (line, f"{dotted((*keys, '<<'))}merges a block of keys, or a list of such blocks")
+                )
+        return merged
+
+    def _check_seen(self, text: str, line: int, keys: Keys) -> None:
+        """Note a text that would command the terminal it is shown on."""
+        unseen = next((each for each in text if is_unseen(each) and each not in LAID_OUT), None)
+        if unseen:
+            self._problems.append((line, f"{dotted(keys)}holds the character '{seen(unseen)}', which is no text"))
 
     def _place(self, origin: int | str) -> str:
         return origin if isinstance(origin, str) else f"{self.name}:{origin}"
-
-    def _problem(self, error: dict[str, Any], schemas: dict[int, type[Parameters]]) -> tuple[int | str, str]:
-        """One of pydantic's errors as an origin and a message."""
-        keys, block, value = self._follow(error)
-        origin = next(self._origins[keys[:n]] for n in range(len(keys), -1, -1) if keys[:n] in self._origins)
-        return origin, _dotted(keys) + _message(error, keys, value, schemas.get(id(block)))
 
     def _follow(self, error: dict[str, Any]) -> tuple[Keys, Any, Any]:
         """The keys of an error, the block they end in and the value there, without pydantic's labels of unions."""
@@ -204,45 +255,16 @@ class Document:
         return tuple(keys), block, value
 
 
-def _message(error: dict[str, Any], keys: Keys, value: Any, schema: type[Parameters] | None) -> str:
-    """What is wrong with the value at `keys`, and what is allowed there; `schema` read the block around it."""
-    kind, context = error["type"], error.get("ctx", {})
-    names = list(schema.model_fields) if schema else []
-    written = f"'{value}': " if isinstance(value, str) else ""
-    match kind:
-        case "extra_forbidden" if moved := schema and schema.MOVED.get(str(keys[-1])):
-            return f"has moved: {moved}"
-        case "extra_forbidden":
-            return f"unknown key{did_you_mean(str(keys[-1]), names)}{_listed(names)}"
-        case "missing":
-            return f"is missing{_listed_units(schema, keys[-1])}"
-        case "literal_error" | "union_tag_invalid":
-            valid = re.findall(r"'([^']*)'", context.get("expected") or context["expected_tags"])
-            unknown = f"{written}unknown{did_you_mean(value, valid)}" if written else "is empty"
-            return unknown + _listed(valid)
-        case "union_tag_not_found":
-            return written + NEEDS["model_type"] if written else "is missing"
-        case _ if value is None:
-            return "is empty" + _listed_units(schema, keys[-1])
-        case "too_long":
-            return f"takes at most {context['max_length']} values"
-        case "value_error":
-            return written + str(context["error"])
-    return written + str(NEEDS.get(kind, error["msg"][:1].lower() + error["msg"][1:]))
+def _held(value: Any, keys: Iterable[str]) -> Any:
+    """What a block holds at `keys`, itself a default too."""
+    for key in keys:
+        value = value.get(key) if isinstance(value, dict) else getattr(value, key, None)
+    return value
 
 
-def _listed(names: Iterable[str]) -> str:
-    return f"; allowed: {', '.join(names)}"
-
-
-def _listed_units(schema: type[Parameters] | None, key: str | int) -> str:
-    field = schema.model_fields.get(str(key)) if schema else None
-    units = [allowed(item.symbol) for item in field.metadata if isinstance(item, Unit)] if field else []
-    return f"; a value in {units[0]}" if units else ""
-
-
-def _dotted(keys: Keys) -> str:
-    return ".".join(map(str, keys)) + ": " if keys else ""
+def _in_order(origin: int | str) -> tuple[bool, int | str]:
+    """Lines first, each in its order."""
+    return isinstance(origin, str), origin
 
 
 def _shown(path: Path) -> str:

@@ -1,5 +1,7 @@
 """The errors a user can meet, each one line that says where, what and what is allowed."""
 
+from ars_mujoco.schema.quotation import seen
+
 
 class ArsError(Exception):
     """Base of every error this package raises on purpose; the command line prints it without a traceback."""
@@ -9,8 +11,8 @@ class InputError(ArsError):
     """A file, a key, a value or an option that cannot be used. `problems` lists every one found."""
 
     def __init__(self, *problems: str):
-        self.problems = problems
-        super().__init__("\n".join(problems))
+        self.problems = tuple("\n".join(map(seen, problem.split("\n"))) for problem in problems)
+        super().__init__("\n".join(self.problems))
 
 
 class SimulationError(ArsError):

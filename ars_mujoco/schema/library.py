@@ -10,6 +10,7 @@ from itertools import takewhile
 from pathlib import Path
 
 from ars_mujoco.schema.errors import InputError
+from ars_mujoco.schema.quotation import MOST_OF_A_PATH, quoted
 from ars_mujoco.schema.suggestion import did_you_mean
 
 PACKAGE = Path(__file__).parents[1]
@@ -73,9 +74,26 @@ def find(kind: str, name_or_path: str | Path, beside: Path | None = None) -> Pat
     if text in known:
         return known[text]
     path = (beside or Path()) / name_or_path
-    if path.is_file():
-        return path
-    beside_it = path.parent.glob("*" + escape(path.suffix)) if path.suffix else []
-    files = [str(path.with_name(each.name)) for each in beside_it if each.is_file()]
-    near = did_you_mean(text, files) or did_you_mean(path.stem, known)
-    raise InputError(f"no {kind} '{text}'{near or ';'} shipped: {', '.join(known)}")
+    if not _is_file(path):
+        near = did_you_mean(text, _files_like(path)) or did_you_mean(path.stem, known)
+        named = quoted(text, MOST_OF_A_PATH)
+        raise InputError(f"no {kind} {named}{near or ';'} shipped: {', '.join(known)}")
+    if not path.stem.strip("."):
+        raise InputError(f"{kind} '{text}': results bear a file's name, and this is none without its ending; rename it")
+    return path
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # a name that no file can have
+        return False
+
+
+def _files_like(path: Path) -> list[str]:
+    """The files beside `path` with its ending."""
+    try:
+        beside_it = list(path.parent.glob("*" + escape(path.suffix))) if path.suffix else []
+        return [str(path.with_name(each.name)) for each in beside_it if each.is_file()]
+    except (OSError, ValueError):  # a folder that no name can have, or may not be looked into
+        return []

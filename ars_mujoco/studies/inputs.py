@@ -7,18 +7,23 @@ it, and at the working directory where the command line names it.
 """
 
 import hashlib
-from collections.abc import Iterable
+import warnings
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from ars_mujoco.actuators.registry import actuator_schema, own_system, system_for
 from ars_mujoco.actuators.system import is_active
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.manoeuvres.cycle import Cycle, with_inputs
+from ars_mujoco.manoeuvres.unmet import check_met
+from ars_mujoco.manoeuvres.unmet import remarks as unmet
 from ars_mujoco.schema import library
 from ars_mujoco.schema.document import Input, Override, override, read
 from ars_mujoco.schema.errors import InputError
+from ars_mujoco.schema.parameters import Parameters
 from ars_mujoco.vehicle.bench import Bench
 from ars_mujoco.vehicle.roll_plane import RollPlane
 from ars_mujoco.vehicle.sedan import Sedan
@@ -43,6 +48,7 @@ class Inputs:
     vehicle: Input
     law: Input | None = None
     system: Input | None = None
+    remarks: tuple[str, ...] = ()  # on what the run does not meet
 
     def record(self) -> dict[str, Any]:
         """Names, hashes, settings and SI values, as a recording keeps them; a law with its path and hash."""
@@ -54,7 +60,7 @@ class Inputs:
                 "values": each.value.model_dump(mode="json"),
             }
             for kind, each in vars(self).items()
-            if kind not in ("law", "system")
+            if kind not in ("law", "system", "remarks")
         }
         for part, name, code in (("controller", "law", self.law), ("actuator", "system", self.system)):
             if code:
@@ -97,10 +103,11 @@ def read_inputs(
     if problems:
         raise InputError(*problems)
     system = system_for(parts["actuator"].value)
-    if system.INPUTS:
-        driven = read(with_inputs(system.INPUTS), cycle, "cycle", own_settings)
-    elif driven.value.inputs and is_active(system):
+    if driven.value.inputs and is_active(system) and not system.INPUTS:
         raise InputError(f"inputs: the actuator '{parts['actuator'].name}' takes none")
+    if taken := system.INPUTS or (driven.value.inputs and _inputs_of_its_actuator(driven, overrides)):
+        driven = read(with_inputs(taken), cycle, "cycle", own_settings)
+    check_met(driven.value)
     commanded = law if is_active(system) else None
     controlled = parts["controller"].value.model_copy(update={"law": commanded and str(commanded.path)})
     return Inputs(
@@ -108,6 +115,11 @@ def read_inputs(
         **parts | {"controller": replace(parts["controller"], value=controlled)},
         law=commanded,
         system=system_code,
+        remarks=(
+            *(f"{text}: changes nothing" for each in (driven, *parts.values()) for text in each.idle),
+            *(f"{each.text}: changes nothing: {why}" for each in overrides if (why := _unheard(each, driven, system))),
+            *unmet(driven.value, parts["vehicle"].value),
+        ),
     )
 
 
@@ -133,6 +145,9 @@ def read_compared(
             read_inputs(cycle, name, controller, vehicle, settings) if is_active or not any(active) else run
             for name, run, is_active in zip(actuators, runs, active, strict=True)
         ]
+    _check_inputs_taken(runs)
+    for remark in dict.fromkeys(remark for run in runs for remark in run.remarks):
+        warnings.warn(remark, stacklevel=2)
     by_path = {each.actuator.path.resolve(): each for each in runs}
     if len(by_path) < len(runs):
         raise InputError(f"actuators {', '.join(each.actuator.name for each in runs)}: each can be there only once")
@@ -147,6 +162,35 @@ def read_compared(
             by_path[path.resolve()] = read_inputs(cycle, str(path), controller, vehicle, plain)
         references[role] = by_path[path.resolve()]
     return runs, references
+
+
+def _inputs_of_its_actuator(driven: Input, overrides: list[Override]) -> Mapping[str, Any]:
+    """What the cycle's own actuator takes besides commands, for one that takes none to be held against."""
+    try:
+        own, _ = _read_actuator(driven.value.actuator, [], _folder("actuator", driven, overrides))
+    except InputError:  # told where it is to run
+        return {}
+    return system_for(own.value).INPUTS
+
+
+def _check_inputs_taken(runs: list[Inputs]) -> None:
+    """Refuse inputs of a cycle that nobody has read."""
+    inputs = runs[0].cycle.value.inputs
+    if (
+        inputs
+        and not isinstance(inputs, Parameters)
+        and not any(isinstance(run.cycle.value.inputs, Parameters) for run in runs)
+    ):
+        raise InputError("inputs: none of the run's actuators takes any")
+
+
+def _unheard(setting: Override, driven: Input, system: ModuleType) -> str:
+    """Why nothing in the run listens to a setting; empty where something does."""
+    if _part(setting) == "controller" and not is_active(system):
+        return f"a bar that is {system.NAME} obeys no controller"
+    if setting.keys == ("reference",) and driven.value.rig == "bench":
+        return "on the bench nothing is compared"
+    return ""
 
 
 def _read_actuator(name: str, own: list[Override], beside: Path | None) -> tuple[Input, Input | None]:

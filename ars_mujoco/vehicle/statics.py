@@ -120,7 +120,7 @@ class Statics:
             else:
                 self.jacobian = np.empty((0, 0))  # too far from where it was taken
         lateral = -self.model.opt.gravity[1] / GRAVITY
-        raise ArsError(f"no steady turn at {lateral:.2f} g: a wheel lifts or a drop link is out of reach")
+        raise ArsError(f"no steady turn at {lateral:#.3g} g: a wheel lifts or a drop link is out of reach")
 
     def _place(self, displacement: np.ndarray) -> None:
         """Move the free coordinates by `displacement` from the last solved pose; positions follow."""

@@ -5,7 +5,8 @@ from itertools import product
 import numpy as np
 import pytest
 
-from ars_mujoco.analysis.fit_losses import Measurements, fit, fit_losses, read_measurements, remarks
+from ars_mujoco.analysis.fit_losses import fit, fit_losses, remarks
+from ars_mujoco.analysis.measurements import Measurements, read_measurements
 from ars_mujoco.schema.errors import InputError
 
 RPM, BAR, V = 2 * np.pi / 60, 1e5, 1.8e-6 / (2 * np.pi)
@@ -119,14 +120,14 @@ def test_losses_for_another_size_keep_their_coefficients(data, tmp_path):
     [
         ("", "is empty"),
         (HEADER, "holds a header but no points"),
-        (HEADER.replace("bar", "mm"), "pressure: 'mm': wrong unit; allowed: Pa, kPa, MPa or bar"),
-        (HEADER.replace("speed (rpm)", "speed"), "speed: '': needs a unit"),
-        (HEADER.replace("rpm", "rqm"), "speed: 'rqm': unknown unit 'rqm'; did you mean 'rpm'?"),
+        (HEADER.replace("bar", "mm"), "line 1: 'pressure (mm)': wrong unit; allowed: Pa, kPa, MPa, bar or psi"),
+        (HEADER.replace("speed (rpm)", "speed"), "line 1: 'speed': needs a unit"),
+        (HEADER.replace("rpm", "rqm"), "line 1: 'speed (rqm)': unknown unit 'rqm'; did you mean 'rpm'?"),
         (HEADER.replace("torque", "torqe"), r"column 'torque (UNIT)' is missing; did you mean 'torqe'?"),
         (HEADER.replace("torque (Nm)", "flow (L/min)"), "flow: stands twice"),
-        (HEADER + "\n3000,100,1.8,nan,3", "pump.csv:2: flow: 'nan': not a finite number"),
-        (HEADER + "\n3000,100,1.8,5", "pump.csv:2: torque: '': not a finite number"),
-        (HEADER + "\n0,100,1.8,5,3", "pump.csv:2: speed: '0': must be greater than 0 rpm"),
+        (HEADER + "\n3000,100,1.8,nan,3", "pump.csv: line 2: flow: 'nan': not a finite number"),
+        (HEADER + "\n3000,100,1.8,5", "pump.csv: line 2 has 4 cells, the header 5"),
+        (HEADER + "\n0,100,1.8,5,3", "pump.csv: line 2: speed: '0': must be greater than 0 rpm"),
         (HEADER + "\n3000,100,0,5,3", "displacement: is zero at every point"),
     ],
 )
@@ -170,8 +171,14 @@ def test_a_displacement_over_the_full_one_is_refused(data, tmp_path):
         fit_losses(data, (1, 1, 1), tmp_path, scale_to="2 cm")
 
 
+def test_a_stroke_that_scatters_over_the_full_one_is_taken_and_told(data, tmp_path):
+    result = fit_losses(data, (1, 2, 2), tmp_path, displacement=f"{1.8 / 1.004} cm^3/rev")
+    assert remarks(result)[0] == "the largest stroke is 100.4 % of the full one: taken for scatter, as it is"
+    assert result["flow_loss"]["validity"]["stroke"] == [0.0, 1.0]
+
+
 def test_a_fit_through_every_point_is_told_to_say_nothing_of_its_errors():
     fine = {"least_loss": 0.0}
-    result = {"orders": [1, 0, 1], "points": 4, "flow_loss": fine, "torque_loss": fine}
+    result = {"orders": [1, 0, 1], "points": 4, "largest_stroke": 1.0, "flow_loss": fine, "torque_loss": fine}
     assert remarks(result) == ["4 points for 4 coefficients: the fit goes through each, errors say nothing of it"]
     assert remarks(result | {"points": 5}) == []

@@ -157,7 +157,7 @@ def test_a_cycle_names_the_line_of_a_file_that_is_wrong(tmp_path, monkeypatch):
     )
     assert problem(cycle="mine.yaml") == (
         "mine.yaml:9: manoeuvre.ends.recorded: 'travel.csv': line 1: 'travel (deg)': wrong unit; "
-        "allowed: m, cm, mm or km"
+        "allowed: m, cm, mm, km, in or ft"
     )
 
 

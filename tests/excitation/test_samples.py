@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ars_mujoco.excitation.samples import MOST, SAMPLES, read_samples, sampled
+from ars_mujoco.schema.document import Written
 
 TIMES, VALUES = [0.5, 1.0, 1.25, 4.0], [3.0, -1.0, 5.0, 4.0]
 
@@ -79,20 +80,26 @@ def test_a_spreadsheets_file_is_read_too(read):
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("", "line 1: needs two columns, each with its name and unit, such as 'time (s),travel (mm)'"),
+        ("", "is empty"),
         ("0,0\n1,1\n", "line 1: needs two columns, each with its name and unit"),
         ("time (s),travel\n0,0\n", "line 1: needs two columns, each with its name and unit"),
         ("time (s),travel (mm),load (N)\n", "line 1: needs two columns"),
-        ("time (s),travel ()\n0,0\n", "line 1: 'travel ()': needs a unit: m, cm, mm or km"),
-        ("time (s),travel (deg)\n0,0\n", "line 1: 'travel (deg)': wrong unit; allowed: m, cm, mm or km"),
+        ("time (s),travel ()\n0,0\n", "line 1: 'travel ()': needs a unit: m, cm, mm, km, in or ft"),
+        ("time (s),travel (deg)\n0,0\n", "line 1: 'travel (deg)': wrong unit; allowed: m, cm, mm, km, in or ft"),
         ("travel (mm),time (s)\n0,0\n", "line 1: 'travel (mm)': wrong unit; allowed: s, ms, min or h"),
         ("time (s),travel (mmm)\n0,0\n", "line 1: 'travel (mmm)': unknown unit 'mmm'; did you mean 'mm'?"),
         ("time (s),travel (mm)\n", f"holds 0 samples; allowed: 1 to {MOST}"),
-        ("time (s),travel (mm)\n0,0\n1\n", "line 3: needs a time and a value, not 1 columns"),
-        ("time (s),travel (mm)\n0,0\n1,2,3\n", "line 3: needs a time and a value, not 3 columns"),
-        ("time (s),travel (mm)\n0,0\n1,nan\n", "line 3: 'nan': not a finite number"),
-        ("time (s),travel (mm)\n0,0\n1,\n", "line 3: '': not a finite number"),
-        ("time (s),travel (mm)\n0,0\n1,2 mm\n", "line 3: '2 mm': not a bare number; the unit stands in the header"),
+        ("time (s),travel (mm)\n0,0\n1\n", "line 3 has 1 cell, the header 2"),
+        (
+            "time (s),travel (mm)\n0,0\n1,2,3\n",
+            "line 3 has 3 cells, the header 2; with decimal commas a table needs another delimiter",
+        ),
+        ("time (s),travel (mm)\n0,0\n1,nan\n", "line 3: travel: 'nan': not a finite number"),
+        ("time (s),travel (mm)\n0,0\n1,\n", "line 3: travel: '': not a finite number"),
+        (
+            "time (s),travel (mm)\n0,0\n1,2 mm\n",
+            "line 3: travel: '2 mm': not a bare number; the unit stands in the header",
+        ),
         ("time (s),travel (mm)\n0,0\n1,1\n1,2\n", "line 4: '1': times must rise from line to line"),
         ("time (s),travel (mm)\n0,0\n2,1\n\n1,2\n", "line 5: '1': times must rise from line to line"),
     ],
@@ -101,6 +108,35 @@ def test_what_is_no_recorded_input_is_refused(read, text, problem):
     with pytest.raises(ValueError) as error:
         read(text)
     assert str(error.value).startswith(problem)
+
+
+LOG = "t,vEgo,steer\n0,33,1\n0.1,33,2\n"
+
+
+def test_of_a_table_with_other_columns_one_is_named(tmp_path):
+    (tmp_path / "log.csv").write_text(LOG)
+    wanted = {"file": Written("log.csv", tmp_path), "column": "Steer", "units": {"t": "s", "steer": "mm"}}
+    samples = read_samples(wanted, "m")
+    assert (samples.file, samples.times.tolist()) == ("log.csv", [0.0, 0.1])
+    assert samples.values == pytest.approx([1e-3, 2e-3])
+    backwards = read_samples(wanted | {"column": "t", "time": "steer", "units": {"t": "mm", "steer": "s"}}, "m")
+    assert backwards.times.tolist() == [1.0, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        ({"column": "ster"}, "line 1: no column 'ster'; did you mean 'steer'?"),
+        ({"units": {"t": "s"}}, "line 1: 'steer': needs a unit: m, cm, mm, km, in or ft"),
+        ({"units": {"time": "s"}}, "line 1: no column 'time'"),
+        ({"colum": "steer"}, "needs a file's name, or a block of file, column, and where needed time and units"),
+    ],
+)
+def test_a_column_that_is_not_there_is_refused(tmp_path, change, problem):
+    (tmp_path / "log.csv").write_text(LOG)
+    with pytest.raises(ValueError) as error:
+        read_samples({"file": Written("log.csv", tmp_path), "column": "steer"} | change, "m")
+    assert str(error.value) == problem
 
 
 def test_more_samples_than_there_is_room_for_are_refused(read):

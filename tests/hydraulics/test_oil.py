@@ -125,11 +125,11 @@ def test_no_energy_is_stored_at_the_tanks_pressure_and_some_at_any_other(pressur
     ("key", "written", "message"),
     [
         ("air", "0", "must be greater than 0"),
-        ("temperature", "50", "needs a unit: K or degC"),
-        ("temperature", "50 deg", "wrong unit; allowed: K or degC"),
+        ("temperature", "50", "needs a unit: K, degC or degF"),
+        ("temperature", "50 deg", "wrong unit; allowed: K, degC or degF"),
         ("temperature", "-60 degC", "must be at least -40 degC"),
         ("viscosity_100", "40 mm^2/s", "must be less than viscosity_40: an oil thins as it warms"),
-        ("viscosity_40", "32", "needs a unit: m^2/s or mm^2/s"),
+        ("viscosity_40", "32", "needs a unit: m^2/s, mm^2/s or cSt"),
     ],
 )
 def test_an_impossible_oil_is_refused_with_its_line_and_what_is_allowed(key, written, message):

@@ -92,7 +92,7 @@ def test_an_expectation_is_held_in_the_metrics_unit():
         ("window=[5 s, 3 s]", "window: needs a start before its end"),
         ("window=[5 s, 25 s]", "window: needs a start before its end, both within the duration"),
         ("rig=trailer", "rig: 'trailer': unknown; allowed: bench, roll_plane, sedan"),
-        ("speed=120", "speed: '120': needs a unit: m/s or km/h"),
+        ("speed=120", "speed: '120': needs a unit: m/s, km/h or mph"),
         ("manoeuvre.kind=folow", "manoeuvre.kind: 'folow': unknown; did you mean 'follow'?"),
         ("manoeuvre.lateral_acceleration.knots=[]", "manoeuvre.lateral_acceleration.knots: a signal has 1 to"),
         (

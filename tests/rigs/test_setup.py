@@ -28,3 +28,19 @@ def test_a_target_at_which_the_accelerometer_is_ambiguous_is_refused():
 def test_a_target_that_the_car_cannot_hold_is_refused():
     line = problem("controller.reference.target=[[0 g, 0 deg], [2 g, 1 deg]]", cycle="s_curve_120kmh")
     assert line.startswith("controller.reference.target: this vehicle does not hold it: no steady turn at 2.00 g")
+
+
+@pytest.mark.parametrize(
+    ("setting", "part"),
+    [
+        ("controller.reference.target=[[0 g, 0 deg], [0.8 g, 1e300 deg]]", "controller.reference: "),
+        ("actuator.front.motor.displacement=1e300 m^3/rad", "actuator: its values do not go together: "),
+        ("vehicle.mass=1e300 kg", "vehicle 'roll_plane': its statics cannot be computed: "),
+        ("road.bump.position=1 m", "road.bump: a wheel that starts on it finds no stand: "),
+    ],
+)
+def test_the_part_at_fault_is_blamed(setting, part):
+    cycle = "single_wheel_bump" if setting.startswith("road") else "roll_plane_step"
+    with pytest.raises(InputError) as error:
+        simulation_of(read_inputs(cycle, settings=[setting]))
+    assert str(error.value).startswith(part)

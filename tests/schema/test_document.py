@@ -1,6 +1,7 @@
 """A file that cannot be used is refused in one error: each problem with its line, key, value and what is allowed."""
 
 import hashlib
+import os
 from typing import Annotated, Literal
 
 import numpy as np
@@ -88,6 +89,13 @@ def test_a_merged_block_keeps_its_own_values(machine):
     assert (value.front.mass, value.rear.mass, value.rear.share) == (40.0, 42.0, 0.6)
 
 
+def test_of_a_list_of_merged_blocks_the_first_that_has_a_key_gives_it(machine):
+    both = GOOD.replace("  <<: *front\n  mass: 42 kg", "  <<: [*front, {mass: 7 kg, share: 10 %}, {share: 20 %}]")
+    assert (machine(both).value.rear.mass, machine(both).value.rear.share) == (40.0, 0.6)
+    turned = GOOD.replace("  <<: *front\n  mass: 42 kg", "  <<: [{share: 20 %}, *front]\n  mass: 42 kg")
+    assert (machine(turned).value.rear.mass, machine(turned).value.rear.share) == (42.0, 0.2)
+
+
 def test_the_hash_is_that_of_the_file(machine):
     assert machine(GOOD).sha256 == hashlib.sha256(GOOD.encode()).hexdigest()
 
@@ -105,14 +113,14 @@ def test_a_schema_is_the_layout_of_a_record(machine):
         ("stiffness", "stifness", "5: element.stifness: unknown key; did you mean 'stiffness'?; "),
         ("mass: 12 kg", "mass: -12 kg", "2: mass: '-12 kg': must be greater than 0 kg"),
         ("mass: 12 kg", "mass: nan kg", "2: mass: 'nan kg': not a finite number"),
-        ("mass: 12 kg", "mass: 12", "2: mass: '12': needs a unit: kg"),
-        ("mass: 12 kg", "mass: 12 bar", "2: mass: '12 bar': wrong unit; allowed: kg"),
+        ("mass: 12 kg", "mass: 12", "2: mass: '12': needs a unit: kg, t or lb"),
+        ("mass: 12 kg", "mass: 12 bar", "2: mass: '12 bar': wrong unit; allowed: kg, t or lb"),
         ("mass: 12 kg", "mass: 12 kgg", "2: mass: '12 kgg': unknown unit 'kgg'; did you mean 'kg'?"),
-        ("mass: 12 kg", "mass:", "2: mass: is empty; a value in kg"),
+        ("mass: 12 kg", "mass:", "2: mass: is empty; a value in kg, t or lb"),
         ("mass: 12 kg", "mass: [12 kg]", "2: mass: not a finite number"),
         ("mass: 12 kg", "mass: 12 kg\nmass: 13 kg", "3: mass: stands twice; first on line 2"),
         ("mass: 12 kg", "mass: !!python/name:os.system x", "2: mass: tag "),
-        ("mass: 12 kg\n", "", "1: mass: is missing; a value in kg"),
+        ("mass: 12 kg\n", "", "1: mass: is missing; a value in kg, t or lb"),
         (
             "kind: spring",
             "kind: sprong",
@@ -121,9 +129,14 @@ def test_a_schema_is_the_layout_of_a_record(machine):
         ("kind: spring", "", "3: element.kind: is missing"),
         ("name: a machine", "name: [a, machine]", "1: name: needs a text"),
         ("front: &front\n  mass: 40 kg\n  share: 60 %", "front: &front 3", "6: front: '3': needs a block of keys"),
+        ("<<: *front", "<<: [*front, 3]", "10: rear.<<: merges a block of keys, or a list of such blocks"),
+        ("<<: *front", "<<: front", "10: rear.<<: merges a block of keys, or a list of such blocks"),
+        ("a machine", '"\\e[31mred"', "1: name: holds the character '\\x1b', which is no text"),
+        ("a machine", '"\\u202eeno"', "1: name: holds the character '\\u202e', which is no text"),
+        ("mass: 12 kg", f"mass: {'9' * 200} m", f"2: mass: '{'9' * 40}... (202 characters)': wrong unit"),
         ("share: 60 %", "share: 120 %", "8: front.share: '120 %': must be at most 100 %"),
         ("[10 ms, 5 mm]", "[10 ms]", "14: knots.1.1: is missing"),
-        ("[10 ms, 5 mm]", "[10 ms, 5 bar]", "14: knots.1.1: '5 bar': wrong unit; allowed: m, cm, mm or km"),
+        ("[10 ms, 5 mm]", "[10 ms, 5 bar]", "14: knots.1.1: '5 bar': wrong unit; allowed: m, cm, mm, km, in or ft"),
         ("[10 ms, 5 mm]", "[10 ms, 5 mm", "15: expected ',' or ']'"),
     ],
 )
@@ -160,7 +173,7 @@ def test_a_setting_of_a_merged_block_leaves_its_source_alone(machine):
     ("setting", "problem"),
     [
         ("mas=3 kg", "mas: unknown key; did you mean 'mass'?; allowed: name, mass, element, front, rear, knots"),
-        ("mass=3 m", "mass: '3 m': wrong unit; allowed: kg"),
+        ("mass=3 m", "mass: '3 m': wrong unit; allowed: kg, t or lb"),
         ("front.mas=3 kg", "front.mas: unknown key; did you mean 'mass'?; allowed: mass, share"),
         ("mass.front=3 kg", "mass: holds no keys"),
         ("mass", "not a setting; written as key=value, such as duration='3 s'"),
@@ -174,6 +187,49 @@ def test_a_bad_setting_is_told_as_such(machine, setting, problem):
 def test_an_alias_of_itself_is_refused(machine):
     (line,) = problems(machine, GOOD.replace("rear:", "rear: &rear\n  self: *rear"))
     assert line == "machine.yaml: nested too deeply, or an alias that refers to itself"
+
+
+BOMB = "a0: &a0 [x,x,x,x,x,x,x,x,x,x]\n" + "".join(
+    f"a{n}: &a{n} [{','.join([f'*a{n - 1}'] * 10)}]\n" for n in range(1, 9)
+)
+MERGE_BOMB = "a0: &a0 {x: y}\n" + "".join(
+    f"a{n}: &a{n} {{<<: [{','.join([f'*a{n - 1}'] * 10)}]}}\n" for n in range(1, 9)
+)
+EMPTY_MERGE_BOMB = MERGE_BOMB.replace("{x: y}", "{}")
+
+
+@pytest.mark.parametrize("bomb", [BOMB, MERGE_BOMB, EMPTY_MERGE_BOMB])
+def test_aliases_that_repeat_each_other_without_end_are_refused(machine, bomb):
+    (line,) = problems(machine, bomb)
+    assert line == "machine.yaml: holds more than 50000 values, those counted that aliases repeat"
+
+
+def test_of_many_problems_the_first_are_told_and_how_many_more(machine):
+    lines = problems(machine, GOOD + "".join(f"k{n}: {n}\n" for n in range(5_000)))
+    assert [line.split(": unknown")[0] for line in lines[:2]] == ["machine.yaml:15: k0", "machine.yaml:16: k1"]
+    assert (len(lines), lines[-1]) == (31, "machine.yaml: and 4970 more")
+
+
+@pytest.mark.parametrize("text", ["root:x:0:0:secret", "- secret\n- word", "|\n  secret\n  word"])
+def test_of_a_file_that_is_none_of_ours_nothing_is_told(machine, text):
+    assert problems(machine, text) == ["machine.yaml:1: needs a block of keys"]
+
+
+def test_no_name_of_a_file_leads_out_of_the_folder_of_results(machine, tmp_path):
+    for name in ("...yaml", "..yaml"):
+        (tmp_path / name).write_text(GOOD)
+        with pytest.raises(InputError, match="is none without its ending; rename it"):
+            read(Machine, name, "vehicle")
+
+
+def test_what_is_no_file_or_too_long_a_one_is_not_read(tmp_path):
+    os.mkfifo(tmp_path / "pipe.yaml")
+    for name in ("/dev/zero", "pipe.yaml", "x" * 5000):
+        with pytest.raises(InputError, match="no vehicle '"):
+            read(Machine, name, "vehicle", beside=tmp_path)
+    (tmp_path / "long.yaml").write_text("#" * 1_000_001)
+    with pytest.raises(InputError, match="long.yaml: is too long: more than 1 MB"):
+        read(Machine, "long.yaml", "vehicle", beside=tmp_path)
 
 
 @pytest.mark.parametrize(("content", "problem"), [(b"\xff\xfe\x00", "cannot be read"), (b"a: \x00\x01", "unaccept")])

@@ -8,6 +8,21 @@ from hypothesis import strategies as st
 
 from ars_mujoco.schema.units import SPELLINGS, measure, to_si
 
+SAME = {
+    "cm^3/rev": ("cm3/rev", "cm³/rev", "cc/rev", "ccm/U", "cm^3/r", "cm3/U"),
+    "rpm": ("1/min", "U/min", "min^-1", "min-1", "min⁻¹", "/min", "RPM", "rev/min", "r/min"),
+    "L/min": ("l/min", "lpm", "LPM"),
+    "Nm": ("N·m", "N*m", "N m", "N-m", "N.m"),
+    "lbf*ft": ("lbf-ft", "ft-lbf", "ft-lb", "lb-ft", "ft·lb", "lb ft"),
+    "lbf*in": ("in-lbf", "in-lb", "lb·in"),
+    "gpm": ("GPM", "gal/min"),
+    "psi": ("PSI", "lbf/in^2", "lbf/in²"),
+    "degC": ("°C",),
+    "degF": ("°F",),
+    "kg*m^2": ("kg m^2", "kg·m²", "kg m2"),
+    "us": ("µs", "μs"),
+}
+
 finite = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e12, max_value=1e12)
 
 
@@ -44,6 +59,16 @@ finite = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e12, max_v
         ("0.05 Nm/A", "Nm/A", 0.05),
         ("0.05 V*s/rad", "V*s/rad", 0.05),
         ("2e-5 W*s^2/rad^2", "W/(rad/s)^2", 2e-5),
+        ("2600 psi", "Pa", 2600 * 0.45359237 * 9.80665 / 0.0254**2),
+        ("5 gpm", "m^3/s", 5 * 231 * 0.0254**3 / 60),
+        ("1 gal", "m^3", 3.785411784e-3),
+        ("0.11 in^3/rev", "m^3/rad", 0.11 * 0.0254**3 / (2 * math.pi)),
+        ("12 lbf*in", "Nm", 12 * 0.45359237 * 9.80665 * 0.0254),
+        ("3500 lb", "kg", 3500 * 0.45359237),
+        ("1.6 t", "kg", 1600.0),
+        ("60 mph", "m/s", 26.8224),
+        ("46 cSt", "m^2/s", 46e-6),
+        ("122 degF", "K", 323.15),
         ("0.1 %", "1", 0.001),
         ("1e-3", "1", 0.001),
         (0.6, "1", 0.6),
@@ -51,6 +76,12 @@ finite = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e12, max_v
 )
 def test_what_engineers_write_becomes_si(written, unit, expected):
     assert to_si(written, unit) == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(("unit", "spelling"), [(unit, each) for unit, others in SAME.items() for each in others])
+def test_a_unit_means_the_same_however_it_is_written(unit, spelling):
+    base = next(name for name in (*SPELLINGS, "s", "kg*m^2") if measure(name)[1] == measure(unit)[1])
+    assert to_si(f"3 {spelling}", base) == pytest.approx(to_si(f"3 {unit}", base), rel=1e-14)
 
 
 @given(number=finite, unit=st.sampled_from(SPELLINGS))
@@ -73,15 +104,23 @@ def test_a_conversion_there_and_back_returns_the_number(number, unit, other):
     [
         ("1.8 cm^3", "m^3/rad", "wrong unit; allowed: cm^3/rev, cm^3/rad or m^3/rad"),
         ("60 Hz", "rad/s", "wrong unit; allowed: rad/s, deg/s or rpm"),
-        ("42 g", "kg", "wrong unit; allowed: kg"),
-        ("5 m/s", "m", "wrong unit; allowed: m, cm, mm or km"),
-        ("50", "K", "needs a unit: K or degC"),
-        ("50 deg", "K", "wrong unit; allowed: K or degC"),
+        ("42 g", "kg", "wrong unit; allowed: kg, t or lb"),
+        ("5 m/s", "m", "wrong unit; allowed: m, cm, mm, km, in or ft"),
+        ("50", "K", "needs a unit: K, degC or degF"),
+        ("50 deg", "K", "wrong unit; allowed: K, degC or degF"),
         ("3 deg", "1", "wrong unit; allowed: a bare number or %"),
-        ("3", "m", "needs a unit: m, cm, mm or km"),
+        ("3", "m", "needs a unit: m, cm, mm, km, in or ft"),
         ("3 A", "V", "wrong unit; allowed: V or mV"),
-        (3, "m/s", "needs a unit: m/s or km/h"),
-        ("3000 RPM", "rad/s", "unknown unit 'RPM'; did you mean 'rpm'?"),
+        (3, "m/s", "needs a unit: m/s, km/h or mph"),
+        ("3000 rqm", "rad/s", "unknown unit 'rqm'; did you mean 'rpm'?"),
+        ("1 s**9**9**9", "s", "'s**9**9**9' is not a unit; written like 'kg*m^2' or 'm^3/s/Pa'"),
+        ("1 ((m^9)^9)^9", "m", "'((m^9)^9)^9' is not a unit; written like 'kg*m^2' or 'm^3/s/Pa'"),
+        ("1 m^99999999", "m", "'m^99999999' is not a unit; written like 'kg*m^2' or 'm^3/s/Pa'"),
+        (
+            f"1 {'m*' * 50_000}m",
+            "m",
+            f"'{'m*' * 20}... (100001 characters)' is not a unit; written like 'kg*m^2' or 'm^3/s/Pa'",
+        ),
         ("120 kmh", "m/s", "unknown unit 'kmh'; did you mean 'km/h'?"),
         ("3 xyz", "m", "unknown unit 'xyz'"),
         ("3 m/", "m", "'m/' is not a unit; written like 'kg*m^2' or 'm^3/s/Pa'"),

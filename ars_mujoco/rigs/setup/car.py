@@ -51,6 +51,9 @@ def fill_reference(start: Start, controller: Controller, vehicle: RollPlane | Se
             table = reference_map(model, vehicle, reference.target, reference.front_share)
         except ArsError as error:
             raise InputError(f"controller.reference.target: this vehicle does not hold it: {error}") from None
+        except (np.linalg.LinAlgError, ArithmeticError) as error:
+            reference_map(model, vehicle)  # of a usual target: it fails too where the vehicle is at fault
+            raise InputError(f"controller.reference: its target and its share do not go together: {error}") from None
         if not (np.diff(table.reading) > 0.0).all():
             raise InputError(
                 "controller.reference.target: the roll falls so steeply that the accelerometer, which feels a part of "

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ars_mujoco.bridge.callback import installed
+from ars_mujoco.bridge.callback import installed, tables_of
 from ars_mujoco.control.controller import Controller
 from ars_mujoco.driving.driver import Driver
 from ars_mujoco.excitation.knots import signal
@@ -10,6 +10,7 @@ from ars_mujoco.manoeuvres.cycle import Circle, Cycle, Follow, StepSteer, Straig
 from ars_mujoco.rigs.setup.car import fill_addresses, fill_reference, law_of, torsion
 from ars_mujoco.rigs.setup.start import Start
 from ars_mujoco.rigs.setup.steady_turn import LEARNT, steering_angle, understeer
+from ars_mujoco.schema.errors import ArsError, InputError
 from ars_mujoco.schema.parameters import Parameters, fill
 from ars_mujoco.simulation.simulation import Simulation
 from ars_mujoco.tires.contact import rolling_radius
@@ -34,7 +35,11 @@ def set_up(cycle: Cycle, actuator: Parameters, controller: Controller, vehicle: 
     parameters.cg_height = vehicle.sprung.cg_height
     if cycle.road.bump:
         fill(parameters.bump, cycle.road.bump)
-    _park(start)
+    try:
+        _park(start)
+    except ArsError as error:
+        on_bump = "road.bump: a wheel that starts on it finds no stand: " if cycle.road.bump else ""
+        raise InputError(f"{on_bump}{error}") from None
     parameters.speed = cycle.speed_signal()
     _learn(start, vehicle)
     _roll_out(start, vehicle, parameters.speed.values[0])
@@ -83,7 +88,10 @@ def _let_drive(start: Start, cycle: Cycle) -> None:
         parameters.demand = signal([manoeuvre.start, manoeuvre.start + manoeuvre.ramp], [0.0, angle], "linear")
         parameters.driver.open_loop = 1.0
     else:
-        parameters.demand = _path(manoeuvre)
+        if isinstance(manoeuvre, Follow) and manoeuvre.lateral_acceleration.is_sampled:
+            tables_of(start.rig, start.simulation.model).demand = manoeuvre.lateral_acceleration.samples()
+        else:
+            parameters.demand = _path(manoeuvre)
         parameters.demand_over_speed = isinstance(manoeuvre, Follow)
 
 

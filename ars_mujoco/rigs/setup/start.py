@@ -5,11 +5,13 @@ from functools import cached_property
 import mujoco
 import numpy as np
 
+from ars_mujoco.actuators import stiffest
 from ars_mujoco.actuators.registry import system_for
 from ars_mujoco.actuators.system import Car, Torsion
 from ars_mujoco.bridge.world import NUMERIC, TABLES, new_world
 from ars_mujoco.control.control_unit import ControlUnit, check_timing
 from ars_mujoco.control.law import Law
+from ars_mujoco.kernels.substeps import TooFastError
 from ars_mujoco.manoeuvres.cycle import Cycle
 from ars_mujoco.rigs.rig import rig
 from ars_mujoco.schema.errors import InputError
@@ -51,14 +53,27 @@ class Start:
         return Simulation(self.rig, model, self.cycle.duration, self.cycle.title, self.law)
 
     def fill_system(self, front: Torsion, rear: Torsion | None, has_road: bool) -> None:
-        """Write the bars' torsions, the inputs that the cycle commands, and the system at rest."""
+        """Write the bars' torsions, the inputs that the cycle commands, and the system at rest.
+
+        Raises InputError where the actuator's values do not go together, with the one at fault where that can be told.
+        """
         parameters, system, inputs = self.parameters, self.rig.system, {}
         parameters.bars.front = front.stiffness
         parameters.bars.rear = rear.stiffness if rear else 0.0
         for i, name in enumerate(system.INPUTS):
             inputs[name] = parameters.inputs[i] = getattr(self.cycle.inputs, name).signal()
-        system.fill(parameters.system, self.actuator, Car(front, rear, self.unit, inputs, has_road), self.step)
-        system.start(parameters.system, self.world[0].now.system)
+        car = Car(front, rear, self.unit, inputs, has_road)
+
+        def fill_from(file: Parameters, car: Car) -> None:
+            system.fill(parameters.system, file, car, self.step)
+
+        try:
+            fill_from(self.actuator, car)
+            system.start(parameters.system, self.world[0].now.system)
+        except TooFastError as error:
+            raise stiffest.told(error, fill_from, self.actuator, car) from None
+        except (np.linalg.LinAlgError, ArithmeticError) as error:
+            raise InputError(f"actuator: its values do not go together: {error}") from None
 
     def stored(self) -> Simulation:
         """The simulation, with the world as it is now written into its model."""
