@@ -21,6 +21,7 @@ SYSTEMS = (
     "pump_controlled",
     "electromechanical",
     "electro_hydrostatic",
+    "valve_controlled",
 )
 
 _own: list[ModuleType] = []  # brought by users, in this process

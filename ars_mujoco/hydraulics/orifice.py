@@ -21,3 +21,11 @@ def root_slope(difference: float, rounding: float) -> float:
     square = difference * difference
     whole = square + rounding * rounding
     return (0.5 * square + rounding * rounding) / (whole * math.sqrt(math.sqrt(whole)))
+
+
+@kernel
+def in_series(first: float, second: float) -> float:
+    """Q/sqrt(dp) of two orifices in series, each given so: their pressure drops add up."""
+    if first <= 0.0 or second <= 0.0:
+        return 0.0
+    return first * second / math.sqrt(first * first + second * second)

@@ -55,7 +55,7 @@ def test_an_unknown_name_is_answered_with_the_nearest_and_all():
         library.find("actuator", "pasive")
     assert str(error.value) == (
         "no actuator 'pasive'; did you mean 'passive'? shipped: electro_hydrostatic, electromechanical, locked, "
-        "none, passive, pump_controlled, pump_controlled_full, robot_joint, verification"
+        "none, passive, pump_controlled, pump_controlled_full, robot_joint, valve_controlled, verification"
     )
 
 
