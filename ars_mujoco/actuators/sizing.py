@@ -31,7 +31,7 @@ class Dimension(NamedTuple):
 
 
 class Sizing(NamedTuple):
-    """Of a system: `size(axle, requirement)` gives Dimensions; `axle` is its file's front, for what else it takes."""
+    """Of a system: `size(file, requirement)` gives Dimensions of an axle; `file` is for what else that takes."""
 
     requirement: Requirement
     size: Callable[[Any, Requirement], list[Dimension]]

@@ -35,7 +35,7 @@ def size(
     texts = {"torque": torque, "rate": rate, "speed": speed, "pressure": pressure}
     given = {name: _in_si(name, text) for name, text in texts.items()}
     required = stated(sizing.requirement, **given)
-    rows = [_row(each) for each in sizing.size(file.front, required)]
+    rows = [_row(each) for each in sizing.size(file, required)]
     requirement = {name: value for name, value in required._asdict().items() if value is not None}
     if as_json:
         print_json({"requirement": requirement, "dimensions": rows})

@@ -302,6 +302,6 @@ def test_its_folder_tells_what_it_is_and_names_tests_that_exist(module):
     folder, root = Path(module.__file__).parent, Path(__file__).parents[2]
     text = (folder / "README.md").read_text()
     assert text.startswith(f"# {folder.name}\n")
-    named = re.findall(r"\btest_\w+\.py", text)
-    assert named and all(list(root.glob(f"tests/**/{each}")) for each in named)
+    named = re.findall(r"\btest_\w+", text)
+    assert named and all(list(root.glob(f"tests/**/{each}.py")) for each in named)
     assert all((folder / each).is_file() for each in re.findall(r"\b\w+\.yaml", text))

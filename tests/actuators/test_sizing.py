@@ -11,6 +11,7 @@ from ars_mujoco.actuators.electromechanical.sizing import SIZING as ELECTROMECHA
 from ars_mujoco.actuators.pump_controlled.sizing import SIZING as PUMP_CONTROLLED
 from ars_mujoco.actuators.registry import actuator_schema
 from ars_mujoco.actuators.sizing import stated
+from ars_mujoco.actuators.valve_controlled.sizing import SIZING as VALVE_CONTROLLED
 from ars_mujoco.cli import app as cli
 from ars_mujoco.schema.document import read
 from ars_mujoco.schema.errors import InputError
@@ -23,13 +24,17 @@ SIZINGS = {
 RPM = math.pi / 30.0
 
 
+def file_of(name: str):
+    return read(actuator_schema(), name, "actuator", [], None).value
+
+
 def axle(name: str):
-    return read(actuator_schema(), name, "actuator", [], None).value.front
+    return file_of(name).front
 
 
 def sized(name: str, **required: float) -> dict:
     sizing = SIZINGS[name]
-    return {each.name: each for each in sizing.size(axle(name), stated(sizing.requirement, **required))}
+    return {each.name: each for each in sizing.size(file_of(name), stated(sizing.requirement, **required))}
 
 
 @pytest.mark.parametrize("name", SIZINGS)
@@ -57,6 +62,18 @@ def test_the_shaft_takes_the_oils_power_and_the_pumps_loss(name, part):
     oil = parts["pump.displacement"].value * 180e5
     at_its_norm = loss.norm * sum(loss.coefficients.values())  # 3000 rpm, 180 bar, full stroke
     assert parts[part].value == pytest.approx(oil + at_its_norm)
+
+
+def test_the_pump_at_the_valves_is_a_fourteenth_too_small_for_a_loaded_front_at_idle():
+    """Its size follows from a published flow, 5.5 L/min at 750 rpm."""
+    parts = {
+        each.name: each for each in VALVE_CONTROLLED.size(file_of("valve_controlled"), VALVE_CONTROLLED.requirement)
+    }
+    pump, both = parts["pump.displacement"], parts["flow of both axles"]
+    assert pump.in_file / pump.value == pytest.approx(13.0 / 14.0, abs=0.005)
+    assert both.in_file * 60e3 == pytest.approx(9.0)
+    turned = both.value - 2.0 * 1.75e-13 * 180e5
+    assert turned == pytest.approx(2.0 * parts["motor.displacement"].value * math.radians(57.5))
 
 
 def test_a_gear_takes_the_machine_to_its_speed_at_the_bars_rate():

@@ -7,10 +7,10 @@ from ars_mujoco.actuators.sizing import Dimension, Requirement, Sizing
 from ars_mujoco.hydraulics.displacement import motor_displacement, pump_flow
 
 
-def size(axle: Any, required: Requirement) -> list[Dimension]:
-    """Dimensions of one axle."""
+def size(file: Any, required: Requirement) -> list[Dimension]:
+    """Dimensions of one file.front."""
     torque, rate, speed, pressure = required
-    motor, pump, peak = axle.motor, axle.pump, axle.drive.machine.peak_torque
+    motor, pump, peak = file.front.motor, file.front.pump, file.front.drive.machine.peak_torque
     displacement = motor_displacement(motor, torque, rate, pressure)
     flow = pump_flow(displacement, rate, pump.leakage + motor.leakage, pressure)
     shaft = flow / speed * pressure + pump.torque_loss.at(1.0, speed, pressure)

@@ -6,8 +6,9 @@ from typing import Any
 from ars_mujoco.actuators.sizing import Dimension, Requirement, Sizing
 
 
-def size(unit: Any, required: Requirement) -> list[Dimension]:
+def size(file: Any, required: Requirement) -> list[Dimension]:
     """Dimensions of one axle's unit."""
+    unit = file.front
     gear, machine, loops = unit.gear, unit.drive.machine, unit.loops
     ratio = required.speed / required.rate
     torque = (required.torque + gear.friction) / (gear.efficiency * ratio)

@@ -31,6 +31,7 @@ from ars_mujoco.actuators.valve_controlled.equations import (
 )
 from ars_mujoco.actuators.valve_controlled.file import AXLES, fill_system, released
 from ars_mujoco.actuators.valve_controlled.file import ValveControlled as File
+from ars_mujoco.actuators.valve_controlled.sizing import SIZING
 from ars_mujoco.actuators.valve_controlled.unit import UnitState, sample
 from ars_mujoco.control.control_unit import samples_now
 from ars_mujoco.hydraulics.pressure_valve import open_pressure
