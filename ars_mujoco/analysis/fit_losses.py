@@ -106,6 +106,10 @@ def _least_squares(
     kind: type[LossPolynomial], shared: Mapping[str, Any], orders: Orders, design: np.ndarray, measured: np.ndarray
 ) -> Fit:
     """Least squares with the columns of `design` (n, m) scaled to the same size."""
+    with np.errstate(all="ignore"):  # told below
+        relative = measured / shared["norm"]
+    if not (np.isfinite(design).all() and np.isfinite(relative).all()):
+        raise InputError("the points lie too far apart, or too near to zero, for a fit")
     scale = np.linalg.norm(design, axis=0)
     _, singular, right = np.linalg.svd(design / scale, full_matrices=False)
     condition = singular[0] / singular[-1] if singular[-1] > 0.0 else np.inf
@@ -114,7 +118,6 @@ def _least_squares(
             f"the points do not tell the {len(scale)} coefficients apart (condition number {condition:.1e}): "
             "measure each stroke, speed and pressure with each other, or lower an order"
         )
-    relative = measured / shared["norm"]
     scaled, *_ = np.linalg.lstsq(design / scale, relative, rcond=None)
     names = ["k_{}{}{}".format(*term) for term in _terms(orders)]
     residuals = measured - shared["norm"] * (design / scale @ scaled)
@@ -235,20 +238,16 @@ def _told(numbers: Mapping[str, Any], factor: float, unit: str) -> dict[str, str
 
 def remarks(result: Mapping[str, Any]) -> list[str]:
     """What has to be said about the fits."""
-    coefficients = len(_terms(result["orders"]))
-    exact = (
-        f"{coefficients} points for {coefficients} coefficients: the fit goes through each, errors say nothing of it"
-    )
-    over = f"the largest stroke is {100 * result['largest_stroke']:.4g} % of the full one: taken for scatter, as it is"
-    return (
-        [exact] * (result["points"] == coefficients)
-        + [over] * (result["largest_stroke"] > 1.0)
-        + [
-            f"the {name.replace('_', ' ')} is negative somewhere in its range; the simulation takes zero there"
-            for name in ("flow_loss", "torque_loss")
-            if result[name]["least_loss"] < 0.0
-        ]
-    )
+    count, told = len(_terms(result["orders"])), []
+    if result["points"] == count:
+        told.append(f"{count} points for {count} coefficients: the fit goes through each, errors say nothing of it")
+    if (most := result["largest_stroke"]) > 1.0:
+        told.append(f"the largest stroke is {100 * most:.4g} % of the full one: taken for scatter, as it is")
+    return told + [
+        f"the {name.replace('_', ' ')} is negative somewhere in its range; the simulation takes zero there"
+        for name in ("flow_loss", "torque_loss")
+        if result[name]["least_loss"] < 0.0
+    ]
 
 
 def _block(path: Path, displacement: float, flow: FlowLoss, torque: TorqueLoss) -> str:

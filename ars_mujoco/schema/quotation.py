@@ -17,10 +17,10 @@ def quoted(text: object, most: int = MOST) -> str:
 
 
 def seen(text: str) -> str:
-    """`text` with escapes for what a terminal would obey or could not show, line breaks too."""
-    return "".join(repr(each)[1:-1] if is_unseen(each) else each for each in text)
+    """`text` with escapes for whatever is not printed, line breaks too."""
+    return "".join(each if each.isprintable() else repr(each)[1:-1] for each in text)
 
 
 def is_unseen(character: str) -> bool:
-    """Whether a terminal obeys a character, or cannot show it."""
+    """Whether a terminal obeys a character, or cannot show it; marks within words and emoji are no such ones."""
     return unicodedata.category(character) in UNSEEN or character in REORDERING

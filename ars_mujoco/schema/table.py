@@ -25,6 +25,7 @@ LARGEST = 50_000_000  # bytes
 MOST_CELLS = 5_000_000  # of what is packed
 DELIMITERS = ";\t|,"  # in this order where a header has several: a comma may also stand in a name
 TITLE = re.compile(r"\s*(.*?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)*)\)|\[([^\[\]]*)\])?\s*")  # name (unit) or name [unit]
+MOST = 1e100  # of a number in SI: powers of it are still numbers
 MOST_TITLES = 20  # that an error lists
 WITHOUT = ("", "-", "1")  # how a row of units says that a column has none
 FORM = "columns with names and units, such as 'time (s),travel (mm)'"
@@ -88,9 +89,11 @@ class Table:
                 found = number(cell, self.decimal)
                 if limits:
                     to_si(f"{found!r} {written}", unit, **limits)
+                values[i] = found * one if zero == 0.0 else zero + found * (one - zero)
+                if not abs(values[i]) <= MOST:
+                    raise ValueError("too large a number")
             except ValueError as error:
                 raise ValueError(f"line {line}: {quoted(column.name)[1:-1]}: {quoted(cell)}: {error}") from None
-            values[i] = found * one if zero == 0.0 else zero + found * (one - zero)
         return values
 
 

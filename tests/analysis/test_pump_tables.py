@@ -127,6 +127,7 @@ COMMAS = GERMAN.replace(";", ",")
             "'pressure (psig)': unknown unit 'psig'; did you mean 'psi'?",
         ),
         (COMMAS.replace("(rpm)", "(Hz)") + "1,2,3,4,5\n", "'speed (Hz)': wrong unit; allowed: rad/s, deg/s or rpm"),
+        (COMMAS + "1e308,2,3,4,5\n", "line 2: speed: '1e308': too large a number"),
         (COMMAS + f"{'1' * 200_000},2,3,4,5\n", "line 2: is no line of a table"),
         (COMMAS + '1,2,3,4,"5\n1,2,3,4,5\n', "torque: '51,2,3,4,5': not a finite number"),
         ("PK\x03\x04...", "is a spreadsheet; save it as CSV"),
