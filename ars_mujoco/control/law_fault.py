@@ -45,8 +45,10 @@ def compilers_reason(error: Exception, function: object, path: Path) -> str:
 
 
 def prints(function: object, seen: tuple[object, ...] = ()) -> bool:
-    """Whether a function, or a compiled one that it names, prints: native code then takes the interpreter's lock, and
-    has been seen not to give it back.
+    """Whether a function, or a compiled one that it names, prints.
+
+    Native code then takes the interpreter's lock and looks for the text in the Environment of its function, which code
+    from numba's cache has for the entry alone. It returns with an error and keeps the lock: the run hangs.
     """
     code = getattr(function, "__code__", None)
     if code is None or function in seen:
