@@ -17,8 +17,8 @@ from typing import Any
 
 from ars_mujoco import __version__
 from ars_mujoco.recording.recording import Recording
+from ars_mujoco.schema.document import SCHEMA_VERSION
 
-SCHEMA_VERSION = 2
 PACKAGES = ("mujoco-core", "numba", "numpy", "rerun-sdk", "pyarrow")
 
 

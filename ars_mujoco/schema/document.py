@@ -21,6 +21,7 @@ from ars_mujoco.schema.problem import Keys, dotted, message
 from ars_mujoco.schema.quotation import is_unseen, quoted, seen
 from ars_mujoco.schema.source import content
 
+SCHEMA_VERSION = 2  # of files and summaries
 LARGEST = 1_000_000  # bytes of a file
 MOST_VALUES = 50_000  # that a file holds, each counted wherever an alias or a merge repeats it
 MOST_PROBLEMS = 30  # that an error lists
@@ -107,6 +108,7 @@ def read(
         raise InputError(f"{_shown(path)}: {error}") from None
     if document.tree == {}:
         raise InputError(f"{_shown(path)}: is empty")
+    document.take_version()
     before = document.without_overrides(schema) if overrides else None
     for each in overrides:
         document.override(each)
@@ -134,6 +136,18 @@ class Document:
         except RecursionError:
             raise InputError(f"{name}: nested too deeply, or an alias that refers to itself") from None
         self.tree = {} if tree is None else tree
+
+    def take_version(self) -> None:
+        """Take out the `schema_version` that a file may state. Raises InputError for one that is not known yet.
+
+        Keys that have moved since an older one are told by the schema (`Parameters.MOVED`).
+        """
+        stated = self.tree.pop("schema_version", None) if isinstance(self.tree, dict) else None
+        if stated is not None and stated not in [str(each + 1) for each in range(SCHEMA_VERSION)]:
+            raise InputError(
+                f"{self.name}: schema_version: {quoted(stated)}: this release reads 1 to {SCHEMA_VERSION}; "
+                "a file of a later one needs that"
+            )
 
     def override(self, setting: Override) -> None:
         """Set one value; blocks missing on the way to it are made, for the schema to judge."""
