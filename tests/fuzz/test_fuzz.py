@@ -12,7 +12,8 @@ def unsound(seeds):
 
 
 def test_every_shipped_file_is_mutated():
-    shipped = {path for kind in library.SHIPPED for path in library.shipped(kind).values()}
+    """But those of pumps, which are taken by name: no user's file stands in for one."""
+    shipped = {path for kind in library.SHIPPED if kind != "pump" for path in library.shipped(kind).values()}
     assert shipped <= {subject.path for subject in subjects()}
 
 
