@@ -48,6 +48,7 @@ def test_it_prints_a_short_table(analyze, monkeypatch):
     assert "Figures and numbers: here" in out
 
 
+@pytest.mark.slow
 def test_of_a_full_circuit_it_says_what_it_leaves_out(analyze, monkeypatch):
     names = "stable_region", "hydraulic_poles", "line_inertance", "steady_state"
     monkeypatch.setattr("ars_mujoco.analysis.analyze.ANALYSES", {name: ANALYSES[name] for name in names})

@@ -346,10 +346,7 @@ def test_the_interpreted_twin_agrees_to_1e_12(cycle, settings, tmp_path, monkeyp
     """From where all moves: beside peaks near rest, the tolerance of MuJoCo's solver shows as 1e-11."""
     simulation = shipped.simulation(cycle, None, *settings)
     moving = shipped.driven(simulation, 1.5 if cycle == S_CURVE else 0.54)
-    steps = (
-        60 if "actuator=pump_controlled_full" in settings else 200
-    )  # interpreted, every equation takes 0.15 s a step
-    assert twins_apart(simulation, moving, steps, tmp_path, monkeypatch) < 1e-12
+    assert twins_apart(simulation, moving, 60, tmp_path, monkeypatch) < 1e-12
 
 
 # ---- models of others

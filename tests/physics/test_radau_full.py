@@ -53,6 +53,7 @@ def test_the_third_order_control_on_the_reduced_circuit_is_the_verification_set(
     assert np.abs(run.dp(TIME) - verification.dp).max() < 1e-7 * np.abs(verification.dp).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", STEPS)
 def test_an_explicit_method_of_order_eight_gives_the_same_run(degrees):
     run = solve(NOMINAL, "full", "full", STEPS[degrees])
@@ -70,6 +71,7 @@ def test_an_explicit_method_of_order_eight_gives_the_same_run(degrees):
         assert np.abs(implicit[name] - expected).max() < 1e-6 * np.abs(expected).max(), name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("stage", "degrees"), list(product(STAGES, STEPS)))
 def test_halving_the_tolerances_changes_nothing(stage, degrees):
     run = solve(NOMINAL, stage, "full", STEPS[degrees])
